@@ -1,0 +1,1 @@
+"""Where every equation comes from: SymPy only, exact numbers only."""
