@@ -1,7 +1,8 @@
 """Tuning rules: a module per method, each returning settings that say where they come from and how far to trust them.
 
-Every rule gives a `Tuning`: the settings in standard form ``K (1 + 1/(s Ti) + s Td)``, the rule's name and source, and
-notes on its validity. The formulas are the SymPy expressions of `derivations.rules`; `compute` turns them into numbers.
+Every rule gives a `Tuning`: the settings, the rule's name and source, and notes on its validity. The settings are the
+standard form ``K (1 + 1/(s Ti) + s Td)`` acting on the error (b = c = 1, no filter), as the rules were published. The
+formulas are the SymPy expressions of `derivations.rules`; `compute` turns them into numbers.
 """
 
 from dataclasses import dataclass
@@ -75,4 +76,4 @@ def compute(name: str, *inputs: float, notes: tuple[str, ...] = ()) -> Tuning:
         if not (isfinite(value) and value > 0):
             raise RuleDoesNotApply(f"{name}: {symbol} must be a positive number, got {value:g}; source: {found.source}")
     K, Ti, Td = (float(f(*map(float, inputs))) for f in functions)
-    return Tuning(PidStandard(K=K, Ti=Ti if Ti < inf else inf, Td=Td), name, found.source, notes)
+    return Tuning(PidStandard(K=K, Ti=Ti if Ti < inf else inf, Td=Td, c=1.0), name, found.source, notes)
