@@ -1,0 +1,99 @@
+"""The `loopbook` command."""
+
+import sys
+from pathlib import Path
+
+import click
+
+from loopbook import __version__
+from loopbook.pipeline.project import EnvironmentProblem, Project, UsageError, find_project, project_at
+
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
+class Command(click.Group):
+    """Turns what a person can mend into one line and an exit code: 2 usage and parameters, 3 environment."""
+
+    def invoke(self, ctx: click.Context):
+        try:
+            return super().invoke(ctx)
+        except UsageError as error:
+            click.echo(f"loopbook: {error}", err=True)
+            ctx.exit(2)
+        except EnvironmentProblem as error:
+            click.echo(f"loopbook: {error}", err=True)
+            ctx.exit(3)
+        except KeyboardInterrupt:
+            click.echo("interrupted", err=True)
+            ctx.exit(130)
+
+
+@click.group(cls=Command, context_settings=HELP)
+@click.version_option(__version__, prog_name="loopbook")
+@click.option("--root", type=click.Path(exists=True, file_okay=False, path_type=Path), help="The project's folder.")
+@click.pass_context
+def main(ctx: click.Context, root: Path | None) -> None:
+    """Run the notebooks, write their reports, keep the ledger of what the documents print.
+
+    Exit codes: 0 all good, 1 a notebook or a check failed, 2 usage or parameters, 3 the environment.
+    """
+    ctx.obj = project_at(root) if root else find_project()
+
+
+@main.command()
+@click.argument("notebooks", nargs=-1, metavar="[NOTEBOOK]...")
+@click.option("-p", "--parameter", "parameters", type=(str, str), multiple=True, metavar="NAME VALUE",
+              help="A parameter of the notebook; the report goes to reports/custom or -o DIR.")  # fmt: skip
+@click.option("-j", "--jobs", type=click.IntRange(min=1), help="Kernels at a time; default: one per core.")
+@click.option("--format", "formats", default="pdf,html,ipynb", show_default=True, help="What to write.")
+@click.option("--engine", type=click.Choice(["typst", "latex"]), default="typst", show_default=True,
+              help="What makes the PDF; latex needs a TeX installation.")  # fmt: skip
+@click.option("-o", "--output", type=click.Path(file_okay=False, path_type=Path), metavar="DIR",
+              help="Where the reports go; the ledger's files are then left alone.")  # fmt: skip
+@click.option("--force", is_flag=True, help="Run everything, whether it changed or not.")
+@click.option("--accept", is_flag=True, help="Write the ledger's files though a verdict or a printed digit moved.")
+@click.option("--frozen", is_flag=True, help="Fail where the ledger's files would change at all (for CI).")
+@click.option("--timeout", type=click.FloatRange(min=1), default=600.0, show_default=True, metavar="S",
+              help="Seconds that one cell may take.")  # fmt: skip
+@click.option("--watch", is_flag=True, help="Build again whenever a file changes, until Ctrl-C.")
+@click.pass_obj
+def build(
+    project: Project, notebooks, parameters, jobs, formats, engine, output, force, accept, frozen, timeout, watch
+):
+    """Run notebooks and write their reports, where something they depend on changed.
+
+    NOTEBOOK is double_tank/03_pole_placement, double_tank/03, double_tank or a path; default: all.
+    """
+    from loopbook.pipeline.build import build as run_build
+    from loopbook.pipeline.job import Wanted
+
+    chosen = tuple(dict.fromkeys(f.strip() for f in formats.split(",") if f.strip()))
+    wanted = Wanted(chosen, engine, output.resolve() if output else None, force, timeout)
+    options = {"jobs": jobs, "accept": accept, "frozen": frozen}
+    if watch:
+        from loopbook.pipeline.watch import watch as run_watch
+
+        run_watch(project, notebooks, parameters, wanted, options)
+        return
+    sys.exit(run_build(project, notebooks, parameters, wanted, **options).code)
+
+
+@main.command("list")
+@click.pass_obj
+def list_notebooks(project: Project) -> None:
+    """The notebooks, their titles and parameters."""
+    from loopbook.pipeline.parameters import read_parameters
+    from loopbook.pipeline.source import read_source
+
+    notebooks = project.notebooks()
+    width = max(len(n.id) for n in notebooks)
+    for notebook in notebooks:
+        source = read_source(notebook.path)
+        click.echo(f"{notebook.id:{width}}  {source.title}")
+        for parameter in read_parameters(source).values():
+            unit = f"  # {parameter.comment}" if parameter.comment else ""
+            click.echo(f"{'':{width}}    -p {parameter.name} {parameter.default!r}{unit}")
+
+
+if __name__ == "__main__":
+    main()

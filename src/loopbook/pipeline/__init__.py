@@ -1,0 +1,1 @@
+"""From notebooks to reports: run, check, export, remember. Knows nothing of control."""

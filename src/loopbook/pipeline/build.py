@@ -1,0 +1,214 @@
+"""`loopbook build`: every notebook that needs it, in parallel; all of them, even if one fails; then the ledger.
+
+One process drives N kernels. Where nothing is to be done, nothing is imported that takes time.
+"""
+
+import os
+import signal
+import threading
+from collections.abc import Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from loopbook.pipeline import atomic, stamps
+from loopbook.pipeline.console import Console
+from loopbook.pipeline.failures import Failure, everything, summary
+from loopbook.pipeline.job import Done, Job, Wanted, do, plan, repeat
+from loopbook.pipeline.project import FORMATS, Notebook, Project, UsageError
+from loopbook.pipeline.source import Source, read_source
+
+OK, FAILED, USAGE, ENVIRONMENT, INTERRUPTED = 0, 1, 2, 3, 130
+
+
+@dataclass
+class Outcome:
+    """How a build ended. code: the exit code. done: one entry per notebook that was worked on."""
+
+    code: int
+    done: list[Done] = field(default_factory=list)
+    failures: list[Failure] = field(default_factory=list)
+
+
+def build(
+    project: Project,
+    names: tuple[str, ...] = (),
+    parameters: Sequence[tuple[str, str]] | Mapping[str, Any] = (),
+    wanted: Wanted | None = None,
+    jobs: int | None = None,
+    accept: bool = False,
+    frozen: bool = False,
+    console: Console | None = None,
+) -> Outcome:
+    """Build notebooks, by default all of the project.
+
+    parameters: for the notebooks named, as typed values or as words of the command line. jobs: kernels at a time,
+    default one per core. accept, frozen: see `judge.judge`. Raises UsageError and EnvironmentProblem before the first
+    kernel starts; what happens later is in the outcome.
+    """
+    wanted, console = wanted or Wanted(), console or Console()
+    _check(names, parameters, wanted)
+    notebooks = project.select(names)
+    ledger = [n for n in notebooks if n.own] if not parameters and wanted.output is None else []
+    todo, broken = _plan(project, notebooks, parameters, wanted)
+    complete = bool(ledger) and len(ledger) == len(project.notebooks())
+    if not broken and all(j.idle for j in todo) and not accept:
+        from loopbook.pipeline.judge import remembered
+
+        verdict = remembered(project, ledger, f"{complete} {frozen}")
+        if verdict or not ledger:
+            return _finish(project, [], verdict.failures if verdict else [], todo, console)
+    _writable(project, todo)
+    with atomic.only_builder(project.cache, lambda who: console.line(f"waiting for {who} to finish its build")):
+        todo, broken = _plan(project, notebooks, parameters, wanted)
+        work = [j for j in todo if not j.idle]
+        try:
+            done = _work(project, work, wanted, jobs or _cores(), console)
+        except KeyboardInterrupt:
+            console.line(
+                "interrupted: what was finished stays, nothing is half written; the next build goes on from there"
+            )
+            return Outcome(INTERRUPTED)
+        failures = broken + [f for d in done for f in d.failures]
+        if ledger:
+            from loopbook.pipeline.judge import judge
+
+            ran = [n for n in ledger if stamps.load(project, n)]
+            verdict = judge(project, ran, complete and len(ran) == len(ledger), accept, frozen)
+            failures += verdict.failures
+            console.changes(verdict.changes)
+            if complete and len(ran) < len(ledger):
+                console.line("the ledger was not checked for completeness: not every notebook ran")
+        if ledger:
+            from loopbook.pipeline.manifest import write_manifest
+
+            write_manifest(project)
+    return _finish(project, done, failures, todo, console)
+
+
+def _check(names: tuple[str, ...], parameters: Any, wanted: Wanted) -> None:
+    if parameters and not names:
+        raise UsageError("-p needs a notebook: loopbook build NOTEBOOK -p NAME VALUE")
+    unknown = [f for f in wanted.formats if f not in FORMATS]
+    if unknown:
+        raise UsageError(f"unknown format {', '.join(unknown)}; one or more of {','.join(FORMATS)}")
+
+
+def _plan(
+    project: Project, notebooks: Sequence[Notebook], parameters: Any, wanted: Wanted
+) -> tuple[list[Job], list[Failure]]:
+    """The jobs, and the notebooks that cannot even be read, as failures where no parameter was given."""
+    todo, broken = [], []
+    for notebook in notebooks:
+        try:
+            source = read_source(notebook.path)
+            values = _values(project, notebook, source, parameters)
+        except UsageError as error:
+            if parameters or not notebook.own:
+                raise
+            stamps.forget(project, notebook)
+            broken.append(Failure(notebook.id, str(error), repeat=f"loopbook build {notebook.id}"))
+            continue
+        todo.append(plan(project, notebook, source, values, wanted))
+    return todo, broken
+
+
+def _values(project: Project, notebook: Notebook, source: Source, parameters: Any) -> dict[str, Any]:
+    if not parameters and not (notebook.own and source.tagged("parameters")):
+        return {}
+    known = stamps.load(project, notebook)
+    if not parameters and known and known.run.get("its code") == source.hash_code():
+        return {}  # this very code was checked before it ran
+    from loopbook.pipeline.parameters import assign, read_parameters
+
+    read_parameters(source)
+    return assign(source, parameters)
+
+
+def _writable(project: Project, todo: list[Job]) -> None:
+    folders = {path.parent for job in todo if not job.idle for path in job.outputs.values()}
+    for folder in sorted({project.cache, *folders}):
+        atomic.writable(folder)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _work(project: Project, work: list[Job], wanted: Wanted, jobs: int, console: Console) -> list[Done]:
+    """Do the jobs, the longest first so that none is left alone at the end. Raises KeyboardInterrupt."""
+    if not work:
+        return []
+    if any(j.run_because for j in work):
+        from loopbook.pipeline import kernels, run  # noqa: F401 (once, before the threads)
+
+        kernels.start_again()
+    work = sorted(work, key=lambda j: (-(j.stamp.seconds if j.stamp else 1e9), j.notebook.id))
+    done: list[Done] = []
+    with _interruptible(), console.progress(len(work)), ThreadPoolExecutor(min(jobs, len(work))) as pool:
+        waiting: dict[Future, Job] = {pool.submit(do, project, job, wanted): job for job in work}
+        try:
+            while waiting:
+                finished, _ = wait(waiting, return_when=FIRST_COMPLETED)
+                for future in finished:
+                    job = waiting.pop(future)
+                    done.append(_result(future, job))
+                    console.done(done[-1], job.reasons)
+        except KeyboardInterrupt:
+            for future in waiting:
+                future.cancel()
+            _kill()
+            raise
+    return done
+
+
+def _result(future: Future, job: Job) -> Done:
+    try:
+        return future.result()
+    except KeyboardInterrupt:
+        raise
+    except Exception as error:
+        what = f"{type(error).__name__}: {error} (a fault of the pipeline, please report it)"
+        return Done(job.notebook, 0, [Failure(job.notebook.id, what, repeat=repeat(job))])
+
+
+def _kill() -> None:
+    import sys
+
+    kernels = sys.modules.get("loopbook.pipeline.kernels")
+    if kernels:
+        kernels.kill_all()
+
+
+@contextmanager
+def _interruptible():
+    """SIGTERM ends a build as Ctrl-C does."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _finish(project: Project, done: list[Done], failures: list[Failure], todo: list[Job], console: Console) -> Outcome:
+    idle = len(todo) - len(done)
+    if idle > 0:
+        console.line(f"{idle} notebook{'s' if idle > 1 else ''} up to date")
+    console.warnings(done)
+    path = project.cache / "failures.txt"
+    if failures:
+        atomic.write(path, everything(failures).encode())
+    else:
+        atomic.remove(path)
+    for line in summary(failures):
+        console.line(line)
+    environment = any(d.environment for d in done)
+    return Outcome(ENVIRONMENT if environment else FAILED if failures else OK, done, failures)

@@ -1,0 +1,66 @@
+"""What went wrong, for a person: notebook, cell, what was expected and got, and the command to repeat it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+LINES = 15
+
+
+@dataclass(frozen=True)
+class Failure:
+    """One thing that failed.
+
+    notebook: id, or "" where no single notebook is to blame. cell: position from 1, or 0. what: one line.
+    more: lines that help to mend it. repeat: the command that shows it again. kind: notebook, check, export, ledger
+    or environment.
+    """
+
+    notebook: str
+    what: str
+    cell: int = 0
+    more: tuple[str, ...] = ()
+    repeat: str = ""
+    kind: str = "notebook"
+
+    @property
+    def line(self) -> str:
+        where = ", ".join(filter(None, [self.notebook, f"cell {self.cell}" if self.cell else ""]))
+        return f"{where}: {self.what}" if where else self.what
+
+    def lines(self) -> list[str]:
+        return [self.line, *(f"    {m}" for m in self.more)]
+
+
+def summary(failures: Sequence[Failure], limit: int = LINES) -> list[str]:
+    """At most ``limit`` lines: all details where they fit, else one line each, else the first and how many more.
+
+    Every command that repeats a failure is named once, at the end.
+    """
+    if not failures:
+        return []
+    repeats = list(dict.fromkeys(f.repeat for f in failures if f.repeat))
+    tail = [f"Repeat: {_together(repeats)}"] if repeats else []
+    head = ["", f"{len(failures)} failed:" if len(failures) > 1 else "1 failed:"]
+    room = limit - len(head) - len(tail)
+    full = [line for f in failures for line in f.lines()]
+    if len(full) <= room:
+        return [*head, *full, *tail]
+    short = [f.line for f in failures]
+    if len(short) > room:
+        rest = len(short) - (room - 1)
+        short = [*short[: room - 1], f"and {rest} more: all of them in .cache/failures.txt"]
+    return [*head, *short, *tail]
+
+
+def everything(failures: Sequence[Failure]) -> str:
+    """The whole list, without a limit, for the file."""
+    blocks = ["\n".join([*f.lines(), *([f"    {f.repeat}"] if f.repeat else [])]) for f in failures]
+    return "\n\n".join(blocks) + "\n" if blocks else ""
+
+
+def _together(repeats: list[str]) -> str:
+    start = "loopbook build "
+    plain = [r for r in repeats if r.startswith(start) and " -" not in r]
+    if len(repeats) == 1 or plain != repeats:
+        return repeats[0] if len(repeats) == 1 else "; ".join(repeats[:3])
+    return start + " ".join(r.removeprefix(start) for r in plain[:6])

@@ -1,0 +1,162 @@
+"""A kernel per notebook: on sockets of its own, in an environment that gives the same bytes on every run.
+
+Parallel kernels on TCP race for ports, and share one default path on IPC; here each has a private folder for its
+sockets. Where IPC does not exist (Windows) TCP is used, and a start that fails for its port is tried again.
+"""
+
+import ast
+import json
+import os
+import shutil
+import sys
+import tempfile
+import threading
+from pathlib import Path
+from typing import Any
+
+from jupyter_client.kernelspec import KernelSpec
+from jupyter_client.manager import AsyncKernelManager
+from papermill.clientwrap import PapermillNotebookClient
+
+HERE = Path(__file__).parent
+EPOCH = "1577836800"  # 2020-01-01, the date inside every file that needs one
+TRANSPORT = "tcp" if sys.platform == "win32" else "ipc"
+STARTS = 3 if TRANSPORT == "tcp" else 1
+
+_alive: set["PrivateKernelManager"] = set()
+_lock = threading.Lock()
+_stopping = threading.Event()
+
+
+class Stopped(Exception):
+    """The build was interrupted; no kernel is started any more."""
+
+
+def environment(root: Path, cache: Path) -> dict[str, str]:
+    """The variables of a kernel: nothing of the user's configuration, nothing that differs between two runs.
+
+    root: the project's folder; its ``src`` comes first on the path, so that a copy of the project runs its own code.
+    cache: the folder for what libraries keep between runs. The libraries of linear algebra get one thread: kernels run
+    beside each other, and sums then do not depend on the number of threads.
+    """
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "MPL", "JUPYTER", "IPYTHON", "LC_"))}
+    for name in ("matplotlib", "ipython", "jupyter"):
+        (cache / name).mkdir(parents=True, exist_ok=True)
+    source = [str(root / "src")] if (root / "src").is_dir() else []
+    source.append(str(HERE.parent.parent))
+    fixed = {
+        "PYTHONHASHSEED": "0",
+        "PYTHONNOUSERSITE": "1",
+        "PYTHONUTF8": "1",
+        "PYTHONPATH": os.pathsep.join(dict.fromkeys(source)),
+        "SOURCE_DATE_EPOCH": EPOCH,
+        "MATPLOTLIBRC": str(HERE / "matplotlibrc"),
+        "MPLCONFIGDIR": str(cache / "matplotlib"),
+        "IPYTHONDIR": str(cache / "ipython"),
+        "JUPYTER_CONFIG_DIR": str(cache / "jupyter"),
+        "JUPYTER_NO_CONFIG": "1",
+        "OMP_NUM_THREADS": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+        "MKL_NUM_THREADS": "1",
+        "LC_ALL": "C.UTF-8",
+        "LANG": "C.UTF-8",
+        "TZ": "UTC",
+        "COLUMNS": "100",
+        "LOOPBOOK_ROOT": str(root),
+    }
+    kept.pop("DISPLAY", None)
+    return {**kept, **fixed}
+
+
+class PrivateKernelManager(AsyncKernelManager):
+    """Starts this Python's kernel, whatever name the notebook gives it, on sockets in a folder of its own."""
+
+    def __init__(self, **kwargs: Any):
+        # Short, since the path of a socket is limited to about a hundred bytes.
+        base = None if len(tempfile.gettempdir()) < 60 else "/tmp"
+        self.private = Path(tempfile.mkdtemp(prefix="lb", dir=base))
+        kwargs.update(transport=TRANSPORT, connection_file=str(self.private / "c.json"))
+        if TRANSPORT == "ipc":
+            kwargs["ip"] = str(self.private / "k")
+        super().__init__(**kwargs)
+
+    @property
+    def kernel_spec(self) -> KernelSpec:
+        command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
+        return KernelSpec(argv=command, display_name="Python 3", language="python", name="python3")
+
+    async def _async_start_kernel(self, **kwargs: Any) -> None:
+        with _lock:
+            if _stopping.is_set():
+                raise Stopped
+            _alive.add(self)
+        await super()._async_start_kernel(**kwargs)
+
+    start_kernel = _async_start_kernel
+
+    async def _async_cleanup_resources(self, restart: bool = False) -> None:
+        await super()._async_cleanup_resources(restart=restart)
+        with _lock:
+            _alive.discard(self)
+        shutil.rmtree(self.private, ignore_errors=True)
+
+    cleanup_resources = _async_cleanup_resources
+
+
+class Client(PapermillNotebookClient):
+    """papermill's client on a private kernel that is not waited for at the end."""
+
+    def __init__(self, nb_man: Any, **kwargs: Any):
+        kwargs.update(
+            kernel_manager_class=PrivateKernelManager,
+            shutdown_kernel="immediate",
+            extra_arguments=[
+                "--ext=loopbook.pipeline.kernel_side",
+                "--HistoryManager.enabled=False",
+                "--InlineBackend.figure_formats=svg",
+            ],
+            on_cell_start=self._start,
+        )
+        self.running = 0
+        self.depends: dict[str, Any] = {}
+        self.last_words = ""
+        super().__init__(nb_man, **kwargs)
+
+    def _start(self, cell: Any, cell_index: int) -> None:
+        self.running = cell_index
+
+    def papermill_execute_cells(self) -> None:
+        """Run the cells, then ask the kernel what it read; see `kernel_side.report`."""
+        super().papermill_execute_cells()
+        ask = "__import__('json').dumps(__import__('loopbook.pipeline.kernel_side').pipeline.kernel_side.report())"
+        message = self.kc.execute("", silent=True, store_history=False, user_expressions={"report": ask})
+        answer = self.wait_for_reply(message)["content"].get("user_expressions", {}).get("report", {})
+        if answer.get("status") == "ok":
+            self.depends = json.loads(ast.literal_eval(answer["data"]["text/plain"]))
+
+
+def start_again() -> None:
+    """Allow kernels, after an interrupted build in the same process."""
+    _stopping.clear()
+
+
+def stopping() -> bool:
+    """Was the build interrupted?"""
+    return _stopping.is_set()
+
+
+def kill_all() -> None:
+    """End every kernel now and start no other: for Ctrl-C. The threads that wait for them see a dead kernel."""
+    import signal
+
+    with _lock:
+        _stopping.set()
+        managers = list(_alive)
+    for manager in managers:
+        process = getattr(manager.provisioner, "process", None)
+        if process is None or process.poll() is not None:
+            continue
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except (AttributeError, OSError):
+            process.kill()
