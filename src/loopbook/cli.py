@@ -95,5 +95,46 @@ def list_notebooks(project: Project) -> None:
             click.echo(f"{'':{width}}    -p {parameter.name} {parameter.default!r}{unit}")
 
 
+@main.command()
+@click.argument("document", required=False, default="")
+@click.argument("place", required=False, default="")
+@click.option("--format", "form", type=click.Choice(["text", "json", "csv", "md"]), default="text", show_default=True)
+@click.pass_obj
+def check(project: Project, document: str, place: str, form: str) -> None:
+    """The ledger: what holds, and every row that does not.
+
+    DOCUMENT is pid-report, pid-article or double-tank, PLACE as the document names it: "Table 5.2".
+    """
+    from loopbook.pipeline import check as ledger
+
+    chosen = ledger.read_ledger(project).of(document, place)
+    forms = {"json": ledger.as_json, "csv": ledger.as_csv, "md": ledger.as_markdown}
+    click.echo(forms[form](chosen) if form in forms else ledger.as_text(chosen, whole=bool(place)))
+    sys.exit(1 if chosen.failing else 0)
+
+
+@main.command()
+@click.pass_obj
+def doctor(project: Project) -> None:
+    """Is the environment as it should be?"""
+    from loopbook.pipeline.doctor import examine
+
+    worst = 0
+    for verdict, question, found in examine(project):
+        click.echo(f"{verdict:5} {question:22} {found}")
+        worst = 3 if verdict == "FAIL" else worst
+    sys.exit(worst)
+
+
+@main.command()
+@click.argument("notebooks", nargs=-1, metavar="[NOTEBOOK]...")
+@click.pass_obj
+def verify(project: Project, notebooks: tuple[str, ...]) -> None:
+    """Build twice, in two folders, with one kernel and with four, and compare every byte."""
+    from loopbook.pipeline.verify import verify as run_verify
+
+    sys.exit(run_verify(project, notebooks))
+
+
 if __name__ == "__main__":
     main()

@@ -1,0 +1,141 @@
+"""`loopbook check`: the ledger as it stands in reports/, in a terminal or as data."""
+
+import csv
+import io
+import json
+import shutil
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from loopbook.ledger import (
+    CLAIM_VERDICTS,
+    FAILING,
+    GIVEN,
+    HOLDS,
+    MISPRINT_VERDICTS,
+    READ,
+    REPRODUCED,
+    ROUNDED,
+    VALUE_VERDICTS,
+)
+from loopbook.pipeline import ledger_files
+from loopbook.pipeline.project import Project, UsageError
+
+ORDER = {"value": VALUE_VERDICTS, "claim": CLAIM_VERDICTS, "misprint": MISPRINT_VERDICTS}
+GOOD = {GIVEN, REPRODUCED, ROUNDED, READ, HOLDS}
+Row = dict[str, str]
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """The rows of the three files, each with its table's name under ``table``, in the order of the files."""
+
+    rows: list[Row]
+
+    @property
+    def failing(self) -> list[Row]:
+        return [r for r in self.rows if r["verdict"] in FAILING]
+
+    def of(self, document: str = "", place: str = "") -> "Ledger":
+        """The rows of one document, or of one place in it. Raises UsageError where there is none."""
+        import difflib
+
+        rows = self.rows
+        for key, wanted in (("document", document), ("place", place)):
+            if not wanted:
+                continue
+            known = list(dict.fromkeys(r[key] for r in rows))
+            rows = [r for r in rows if r[key].casefold() == wanted.casefold()]
+            if not rows:
+                near = difflib.get_close_matches(wanted, known, n=4, cutoff=0.4) or known[:6]
+                raise UsageError(f"the ledger has no {key} {wanted!r}; there is {', '.join(near)}")
+        return Ledger(rows)
+
+
+def read_ledger(project: Project) -> Ledger:
+    """Read reports/*.csv. Raises UsageError where there is no ledger yet."""
+    rows = []
+    for table, name in ledger_files.FILES.items():
+        rows += [{"table": table, **r} for r in ledger_files.read(project.reports / name)]
+    if not rows:
+        raise UsageError(f"no ledger in {project.reports}; `loopbook build` writes it")
+    return Ledger(rows)
+
+
+def as_text(ledger: Ledger, whole: bool, width: int | None = None) -> str:
+    """A summary in at most twenty lines, then every row that is not reproduced; the whole rows where asked."""
+    width = width or shutil.get_terminal_size((120, 24)).columns
+    lines = summary_lines(ledger)
+    shown = ledger.rows if whole else [r for r in ledger.rows if r["verdict"] not in GOOD]
+    if shown:
+        lines += ["", "every row" if whole else "every row that is not reproduced, or does not hold:"]
+        lines += [_row_line(r)[:width] for r in shown]
+    return "\n".join(lines)
+
+
+def summary_lines(ledger: Ledger) -> list[str]:
+    """Numbers by document and verdict."""
+    documents = list(dict.fromkeys(r["document"] for r in ledger.rows))
+    counts = Counter((r["table"], r["verdict"], r["document"]) for r in ledger.rows)
+    heads = [*documents, "all"] if len(documents) > 1 else documents
+    lines = [f"{'':32}" + "".join(f"{h:>14}" for h in heads)]
+    for table, verdicts in ORDER.items():
+        for verdict in verdicts:
+            numbers = [counts[table, verdict, d] for d in documents]
+            if any(numbers):
+                cells = [*numbers, sum(numbers)] if len(documents) > 1 else numbers
+                lines.append(f"{table + 's':10}{verdict:22}" + "".join(f"{n:14}" for n in cells))
+    return lines
+
+
+def _row_line(row: Row) -> str:
+    where = f"{row['document']}, {row['place']}"
+    if row["table"] == "value":
+        computed = row["exact"] or row["from_inputs"]
+        what = f"{row['quantity']} = {row['printed']} {row['unit']}".rstrip()
+        got = f"; computed {_short(computed)}" if computed else ""
+        why = f": {row['reason']}" if row["reason"] else ""
+        return f"{row['verdict']:12} {where}: {what}{got}{why}"
+    if row["table"] == "claim":
+        return f"{row['verdict']:12} {where}: {row['says']}: {row['evidence']}"
+    return f"{'misprint':12} {where}: {row['printed']} -> {row['corrected']}: {row['note']}"
+
+
+def _short(number: str) -> str:
+    try:
+        return f"{float(number):.6g}"
+    except ValueError:
+        return number
+
+
+def as_json(ledger: Ledger) -> str:
+    """All rows, each with its table."""
+    return json.dumps(ledger.rows, ensure_ascii=False, indent=1)
+
+
+def as_csv(ledger: Ledger) -> str:
+    """All rows under the columns of the tables they come from."""
+    columns = _columns(ledger.rows)
+    out = io.StringIO()
+    writer = csv.DictWriter(out, columns, lineterminator="\n", restval="")
+    writer.writeheader()
+    writer.writerows(ledger.rows)
+    return out.getvalue().rstrip("\n")
+
+
+def as_markdown(ledger: Ledger) -> str:
+    """One table for each kind of entry."""
+    blocks = []
+    for table in ORDER:
+        rows = [r for r in ledger.rows if r["table"] == table]
+        if rows:
+            columns = [c for c in _columns(rows) if c != "table"]
+            head = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+            body = ["| " + " | ".join(r[c].replace("|", "\\|") for c in columns) + " |" for r in rows]
+            blocks.append("\n".join([*head, *body]))
+    return "\n\n".join(blocks)
+
+
+def _columns(rows: Sequence[Row]) -> list[str]:
+    return list(dict.fromkeys(key for row in rows for key in row))
