@@ -1,0 +1,309 @@
+"""The tree as Typst mathematics.
+
+Rules that keep the result independent of Typst's versions and of what a formula contains: characters stand for
+themselves (no symbol names), ASCII punctuation is always escaped, text is a string literal, every function has
+explicit arguments, and a class is written out wherever Typst could see another one than TeX does.
+"""
+
+from loopbook.pipeline.mathematics import nodes as n
+from loopbook.pipeline.mathematics import symbols
+from loopbook.pipeline.mathematics.spacing import classes, gap
+
+_CLASS = {
+    "ord": "normal",
+    "op": "large",
+    "bin": "binary",
+    "rel": "relation",
+    "open": "opening",
+    "close": "closing",
+    "punct": "punctuation",
+}
+# Characters whose class is the same for Typst and for TeX.
+_NATURAL = {
+    "ord": set("∞∂∇∅∀∃ℵ′/.@"),
+    "bin": set("+−×⋅∓±∩∪∧∨⊕⊗∘"),
+    "rel": set("=<>≤≥≠≈≡≪≫∼∈∉⊂⊆→⇒⇔↦⟶⟹⟺"),
+    "punct": set(",;"),
+    "open": set("([{⟨⌊⌈"),
+    "close": set(")]}⟩⌋⌉"),
+}
+_STYLE = {"display": "display", "text": "inline", "script": "script", "sscript": "sscript"}
+_BRACES = {
+    "⏞": "overbrace",
+    "⏟": "underbrace",
+    "⎴": "overbracket",
+    "⎵": "underbracket",
+    "⏜": "overparen",
+    "⏝": "underparen",
+}
+_CANCEL = {"cancel": "", "bcancel": ", inverted: #true", "xcancel": ", cross: #true", "sout": ", angle: #90deg"}
+_VARIANT = {"bold": "bold", "italic": "italic", "mono": "mono", "sans": "sans"}
+
+
+def emit(items: list[n.Node]) -> str:
+    """Typst code for a horizontal list."""
+    return _list(items)
+
+
+def string(text: str) -> str:
+    r"""A Typst string literal.
+
+    >>> print(string('say "a\\b"'))
+    "say \"a\\b\""
+    """
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def join(parts: list[str]) -> str:
+    """Parts side by side, with a space only where two would run into one word (a space next to text would show)."""
+    out = ""
+    for part in parts:
+        if out and part and _wordlike(out[-1]) and _wordlike(part[0]):
+            out += " "
+        out += part
+    return out
+
+
+def _wordlike(char: str) -> bool:
+    return char.isalnum() or ord(char) > 127
+
+
+def _em(value: float) -> str:
+    return f"{value:.4f}".rstrip("0").rstrip(".") + "em"
+
+
+def _space(em: float) -> str:
+    return f"#h({_em(em)})"
+
+
+def _char(char: str) -> str:
+    """One character that means itself and opens, closes or starts nothing."""
+    if char in symbols.DELIMITERS or (char.isascii() and not char.isalnum() and char != "+"):
+        return "\\" + char
+    return char
+
+
+def _wrap(content: str, cls: str) -> str:
+    return f'class("{_CLASS[cls]}", {content})'
+
+
+def _list(items: list[n.Node], script: bool = False) -> str:
+    """A horizontal list as one argument; never empty, because Typst refuses empty arguments."""
+    return _from(0, items, classes(items), None, script) or '""'
+
+
+def _from(start: int, items: list[n.Node], found: list, before: str | None, script: bool) -> str:
+    """The list from a place on. Explicit spaces include TeX's own space there, which Typst drops."""
+    parts: list[str] = []
+    space: float | None = None
+    for i in range(start, len(items)):
+        item, pair = items[i], found[i]
+        if isinstance(item, n.Space):
+            space = item.em + (space or 0.0)
+            continue
+        if space is not None:
+            parts.append(_space(space + (gap(before, pair[0], script) if before and pair else 0.0)))
+            space = None
+        if isinstance(item, n.StyleSwitch):
+            rest = _from(i + 1, items, found, before, script or "script" in item.style) or '""'
+            return join([*parts, f"{_STYLE[item.style]}({rest})"])
+        parts.append(_node(item, pair[0] if pair else "ord", script))
+        before = pair[1] if pair else before
+    if space is not None:
+        parts.append(_space(space))
+    return join(parts)
+
+
+def _node(node: n.Node, cls: str, script: bool) -> str:
+    """One node. cls: its class in its context, which for a unary minus is not its own."""
+    match node:
+        case n.Symbol():
+            return _symbol(node, cls)
+        case n.Number():
+            return node.text if node.text.replace(".", "").isdecimal() and "," not in node.text else string(node.text)
+        case n.Word():
+            return string(node.text)
+        case n.Text():
+            text = string(node.text)
+            return f"{node.variant}({text})" if node.variant != "normal" else text
+        case n.Group():
+            return _group(node.items, script)
+        case n.Classed():
+            if cls == "op":
+                return f"op({_list(node.items, script)}, limits: #true)"
+            return _wrap(_list(node.items, script), cls)
+        case n.Scripts():
+            return _scripts(node, cls, script)
+        case n.Fraction():
+            return _fraction(node, script)
+        case n.Root():
+            body = _list(node.body, script)
+            return f"sqrt({body})" if node.index is None else f"root({_list(node.index, True)}, {body})"
+        case n.Fenced():
+            return _fenced(node, script)
+        case n.Middle():
+            return _wrap(f"mid({_char(node.char)})", "ord") if node.char else '""'
+        case n.Big():
+            return _wrap(f"lr({_char(node.char)}, size: #{_em(node.em)})", cls) if node.char else '""'
+        case n.Accent():
+            size = "" if node.wide else ", size: #0%"
+            mark = f"\\u{{{ord(symbols.ACCENTS[node.name][0]):x}}}"
+            return f'accent({_list(node.body, script)}, #"{mark}"{size})'
+        case n.Line():
+            return f"{'overline' if node.over else 'underline'}({_list(node.body, script)})"
+        case n.Brace():
+            return f"{_BRACES[node.char]}({_list(node.body, script)})"
+        case n.Stack():
+            labels = [f"{side}: {_list(part, True)}" for side, part in (("t", node.over), ("b", node.under)) if part]
+            return _wrap(", ".join([f"attach(limits({_list(node.base, script)})", *labels]) + ")", cls)
+        case n.Arrow():
+            labels = [f"{side}: {_list(part, True)}" for side, part in (("t", node.over), ("b", node.under)) if part]
+            arrow = f"stretch({node.char}, size: #(100% + 1em))"
+            return _wrap(", ".join([f"attach(limits({arrow})", *labels]) + ")", cls)
+        case n.Operator():
+            return f"op({_list(node.name, script)}, limits: #{'true' if node.limits else 'false'})"
+        case n.Grid():
+            return _grid(node, script)
+        case n.Phantom():
+            hidden = f"std.hide({_list(node.body, script)})"
+            if node.width and node.height:
+                return hidden
+            return f"std.box({'height' if node.width else 'width'}: #0pt, {hidden})"
+        case n.Boxed():
+            return f"std.box(stroke: #0.05em, inset: #0.3em, {_list(node.body, script)})"
+        case n.Cancel():
+            return f"cancel({_list(node.body, script)}{_CANCEL[node.kind]})"
+        case n.Colored():
+            return f'std.text(fill: #rgb("{node.color}"), {_list(node.body, script)})'
+        case n.TagNode():
+            return _space(2.0) + string(node.tag.text)
+    raise TypeError(f"no Typst form for {type(node).__name__}")
+
+
+def _symbol(node: n.Symbol, cls: str) -> str:
+    if node.large:
+        return node.char
+    if node.upright:
+        return string(node.char)
+    if cls == "ord" and node.char.isalpha():
+        return node.char
+    char = _char(node.char)
+    return char if node.char in _NATURAL.get(cls, ()) else _wrap(char, cls)
+
+
+def _group(items: list[n.Node], script: bool) -> str:
+    """A group shows its list; at its edges it is an ordinary atom for its neighbours."""
+    body = _list(items, script)
+    found = [pair for pair in classes(items) if pair]
+    if found and (found[0][0], found[-1][1]) != ("ord", "ord"):
+        return _wrap(body, "ord")
+    return body
+
+
+def _scripts(node: n.Scripts, cls: str, script: bool) -> str:
+    """Scripts beside the base (tr, br) or, for operators with limits, above and below it (t, b)."""
+    base = node.base
+    sub = None if node.sub is None else _list(node.sub, True)
+    sup = None if node.sup is None else _list(node.sup, True)
+    if isinstance(base, n.Brace):
+        above = base.char in "⏞⎴⏜"
+        label = sup if above else sub
+        body = f"{_BRACES[base.char]}({_list(base.body, script)}{', ' + label if label else ''})"
+        rest = sub if above else sup
+        return f"attach(limits({body}), {'b' if above else 't'}: {rest})" if rest else body
+    body = _node(base, cls, script)
+    limits = node.limits
+    if limits is None and _moves_limits(base):
+        top, bottom = "t", "b"
+    elif limits:
+        top, bottom, body = "t", "b", f"limits({body})"
+    else:
+        top, bottom = "tr", "br"
+        if limits is False or isinstance(base, n.Stack | n.Arrow):
+            body = f"scripts({body})"
+    slots = []
+    if node.primes:
+        primes = "′" * node.primes
+        if top == "t" or sup is None:
+            slots.append(f"tr: {primes}")
+        else:
+            sup = join([primes, sup])
+    if sup is not None:
+        slots.append(f"{top}: {sup}")
+    if sub is not None:
+        slots.append(f"{bottom}: {sub}")
+    return f"attach({body}, {', '.join(slots)})"
+
+
+def _moves_limits(base: n.Node) -> bool:
+    match base:
+        case n.Symbol() | n.Operator():
+            return base.limits
+        case n.Classed():
+            return base.cls == "op"
+        case _:
+            return False
+
+
+def _fraction(node: n.Fraction, script: bool) -> str:
+    num, den = _list(node.num, script), _list(node.den, script)
+    body = f"frac({num}, {den})" if node.line else f"mat(delim: #none, row-gap: #0.2em, {num}; {den})"
+    return f"{_STYLE[node.style]}({body})" if node.style else body
+
+
+def _fenced(node: n.Fenced, script: bool) -> str:
+    """An invisible delimiter is an empty text, so that `lr` does not stretch what stands at the edge instead."""
+    if len(node.items) == 1 and isinstance(node.items[0], n.Fraction) and (node.left, node.right) == ("(", ")"):
+        inner = node.items[0]
+        if not inner.line:
+            body = f"binom({_list(inner.num, script)}, {_list(inner.den, script)})"
+            return f"{_STYLE[inner.style]}({body})" if inner.style else body
+    return f"lr({_delimiter(node.left, 'open')}{_list(node.items, script)}{_delimiter(node.right, 'close')})"
+
+
+def _delimiter(char: str, cls: str) -> str:
+    if not char:
+        return '""'
+    return _char(char) if char in _NATURAL[cls] else _wrap(_char(char), cls)
+
+
+def _grid(node: n.Grid, script: bool) -> str:
+    """A `mat` without delimiters inside `lr`; tags stand in a column of their own."""
+    mixed = len(set(node.align)) > 1
+    align = {"l": "left", "c": "center", "r": "right"}[node.align[0] if node.align and not mixed else "c"]
+    tagged = any(row.tag for row in node.rows)
+    rows = []
+    for row in node.rows:
+        cells = [
+            _cell(cell, node.align[j] if mixed or tagged else "", node.style, j and node.aligned and j % 2 == 0)
+            for j, cell in enumerate(row.cells)
+        ]
+        if row.space and cells:
+            height = _em(max(0.0, row.space) + 0.3)
+            cells[0] += f"#std.box(width: 0pt, height: {height}, baseline: {height})"
+        if tagged:
+            cells.append("&" + (_space(2.0) + string(row.tag.text) if row.tag else '""'))
+        rows.append(", ".join(cells) or '""')
+    lines = [
+        f"{name}: ({''.join(f'{i}, ' for i in at)})"
+        for name, at in (("vline", node.vlines), ("hline", node.hlines))
+        if at
+    ]
+    options = [
+        "delim: #none",
+        f"align: #{align}",
+        f"row-gap: #{_em(node.row_gap)}",
+        f"column-gap: #{_em(node.gap)}",
+        *([f"augment: #({', '.join(lines)})"] if lines else []),
+    ]
+    body = f"mat({', '.join(options)}, {'; '.join(rows) or chr(34) * 2})"
+    if node.left or node.right:
+        return f"lr({_delimiter(node.left, 'open')}{body}{_delimiter(node.right, 'close')})"
+    return body
+
+
+def _cell(items: list[n.Node], align: str, style: str, spaced: bool) -> str:
+    body = f"{_STYLE[style]}({_list(items, style == 'script')})" if items else '""'
+    if spaced:
+        body = _space(2.0) + body
+    return {"l": "&" + body, "r": body + "&"}.get(align, body)
