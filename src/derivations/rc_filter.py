@@ -1,0 +1,80 @@
+"""The first-order low-pass filter: from a resistor and a capacitor to its law, its gain and the anti-alias choice.
+
+Source: pid-report, section 4.1 (circuit of figure 4.4) and section 5.1 (16 times at half the sampling frequency).
+"""
+
+from functools import cache
+
+from sympy import Eq, Expr, Function, I, Rational, Symbol, pi, simplify, solve, sqrt, symbols
+
+from derivations.differences import h, t
+
+R, C, Tf, omega, attenuation = symbols("R C T_f omega a", positive=True)
+V_in, V_out, current, V_R = (Function(name) for name in ("V_in", "V_out", "I", "V_R"))
+
+
+@cache
+def circuit_law() -> Eq:
+    """R C V_out' = V_in - V_out, by eliminating the current and the resistor's voltage.
+
+    The three laws: capacitor I = C V_out', Ohm V_R = R I, Kirchhoff V_in - V_R - V_out = 0.
+    """
+    slope = V_out(t).diff(t)
+    solved = solve(
+        [
+            Eq(current(t), C * slope),
+            Eq(V_R(t), R * current(t)),
+            Eq(V_in(t) - V_R(t) - V_out(t), 0),
+        ],
+        [slope, current(t), V_R(t)],
+        dict=True,
+    )[0]
+    return Eq(R * C * slope, simplify(R * C * solved[slope]))
+
+
+@cache
+def filter_law(output: str = "y_f", source: str = "y") -> Eq:
+    """T_f y_f' = -y_f + y: the circuit's law with T_f = R C and the names of a measured signal."""
+    law = circuit_law().subs(R, Tf / C)
+    return law.subs({V_out(t): Function(output)(t), V_in(t): Function(source)(t)}).doit()
+
+
+@cache
+def transfer() -> Expr:
+    """V_out / V_in at the angular frequency omega [rad/s], complex: 1 / (1 + i omega T_f)."""
+    law = circuit_law().subs(R, Tf / C)
+    phasor = Symbol("phasor")
+    steady = law.subs(V_out(t).diff(t), I * omega * phasor).subs({V_out(t): phasor, V_in(t): 1})
+    return simplify(solve(steady, phasor)[0])
+
+
+@cache
+def gain() -> Expr:
+    """Amplitude ratio 1 / sqrt(1 + (omega T_f)^2)."""
+    value = transfer()
+    return simplify(sqrt(value * value.subs(I, -I)))
+
+
+@cache
+def cutoff() -> Expr:
+    """The angular frequency [rad/s] at which the power is halved: 1 / T_f."""
+    return solve(Eq(gain() ** 2, attenuation**-2).subs(attenuation, sqrt(2)), omega)[0]
+
+
+@cache
+def cutoff_hz() -> Expr:
+    """The same in periods per second [Hz]: 1 / (2 pi T_f)."""
+    return cutoff() / (2 * pi)
+
+
+@cache
+def time_constant_for(order: int = 1) -> Expr:
+    """The time constant of each of ``order`` equal filters in series that attenuate ``a`` times at half the sampling
+    frequency, that is at omega = pi / h."""
+    return simplify(solve(Eq(gain().subs(omega, pi / h) ** 2, attenuation ** Rational(-2, order)), Tf)[0])
+
+
+@cache
+def capacitor_current() -> Expr:
+    """Amplitude of the current per volt of V_in; it grows with frequency: omega C / sqrt(1 + (omega R C)^2)."""
+    return simplify((C * omega * gain()).subs(Tf, R * C))
