@@ -1,0 +1,214 @@
+"""A signal in continuous time: one polynomial per cell, each as accurate as double precision allows.
+
+What an exact simulation returns. It can be evaluated at any time, integrated, squared, and asked where it crosses a
+level or turns; nothing of that depends on a grid of time points.
+
+    f(t) = sum_k c_ik P_k(x),   x = 2 (t - t_i)/(t_(i+1) - t_i) - 1,   t_i <= t < t_(i+1)      (P_k: Legendre)
+
+The signal is zero before its first cell (the loop is at rest) and unknown after the last one, which is an error.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.polynomial import legendre
+
+
+class HorizonError(ValueError):
+    """A signal was asked beyond the time it is known for."""
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A piecewise polynomial of time.
+
+    edges: cell boundaries t_0 < t_1 < ... [s], shape (m+1,). coefficients: Legendre coefficients, shape (m, p+1).
+    At an edge the right-hand cell counts: a jump has happened. Raises HorizonError beyond the last edge.
+
+    >>> ramp = Signal(np.array([0.0, 2.0]), np.array([[1.0, 1.0]]))
+    >>> ramp([-1.0, 0.5, 2.0]), float(ramp.integral())
+    (array([0. , 0.5, 2. ]), 2.0)
+    """
+
+    edges: np.ndarray
+    coefficients: np.ndarray
+
+    def __post_init__(self):
+        if self.edges.shape != (len(self.coefficients) + 1,):
+            raise ValueError(f"{len(self.coefficients)} cells need {len(self.coefficients) + 1} edges")
+
+    @property
+    def start(self) -> float:
+        return float(self.edges[0])
+
+    @property
+    def end(self) -> float:
+        return float(self.edges[-1])
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """The length of each cell [s]."""
+        return np.diff(self.edges)
+
+    def __call__(self, times: Any) -> np.ndarray:
+        t = np.asarray(times, dtype=float)
+        if np.isnan(t).any():
+            raise ValueError("a time is NaN")
+        if t.size and t.max() > self.end * (1 + 1e-12):
+            raise HorizonError(f"t = {t.max():g} s lies beyond the horizon, {self.end:g} s: ask for a longer one")
+        cell = np.clip(np.searchsorted(self.edges, t, side="right") - 1, 0, len(self.coefficients) - 1)
+        x = 2 * (t - self.edges[cell]) / self.lengths[cell] - 1
+        return np.where(t < self.start, 0.0, self._sum(np.moveaxis(self.coefficients[cell], -1, 0), x))
+
+    @staticmethod
+    def _sum(c: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """Clenshaw's summation of a Legendre series with coefficients of its own for every x."""
+        after, last = np.zeros_like(x), np.zeros_like(x)
+        for k in range(len(c) - 1, 0, -1):
+            after, last = c[k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * last, after
+        return c[0] + x * after - 0.5 * last
+
+    def limit_before(self, time: float) -> float:
+        """The value just before `time`: the left-hand side of a jump."""
+        if time <= self.start:
+            return 0.0
+        cell = int(np.clip(np.searchsorted(self.edges, time, side="left") - 1, 0, len(self.coefficients) - 1))
+        x = 2 * (time - self.edges[cell]) / self.lengths[cell] - 1
+        return float(legendre.legval(x, self.coefficients[cell]))
+
+    def delayed(self, delay: float) -> "Signal":
+        """The same signal `delay` seconds later."""
+        return Signal(self.edges + delay, self.coefficients) if delay else self
+
+    def until(self, time: float) -> "Signal":
+        """The signal cut off at `time`, which becomes its horizon."""
+        if time > self.end * (1 + 1e-12):
+            raise HorizonError(f"t = {time:g} s lies beyond the horizon, {self.end:g} s: ask for a longer one")
+        inside = self.edges[self.edges < time * (1 - 1e-14)]
+        return self.on(np.append(inside, time)) if time < self.end else self
+
+    def on(self, edges: np.ndarray) -> "Signal":
+        """The same signal on other cells, which must refine its own or cut it."""
+        nodes, to_coefficients = _sampling(self.coefficients.shape[1])
+        middle = (edges[:-1] + edges[1:]) / 2
+        cell = np.searchsorted(self.edges, middle, side="right") - 1
+        known = (cell >= 0) & (cell < len(self.coefficients))
+        cell = np.clip(cell, 0, len(self.coefficients) - 1)
+        t = middle[:, None] + np.diff(edges)[:, None] / 2 * nodes
+        x = 2 * (t - self.edges[cell][:, None]) / self.lengths[cell][:, None] - 1
+        values = self._sum(np.moveaxis(self.coefficients[cell], -1, 0)[:, :, None], x)
+        return Signal(edges, np.where(known[:, None], values, 0.0) @ to_coefficients.T)
+
+    def __add__(self, other: "Signal | float") -> "Signal":
+        if not isinstance(other, Signal):
+            shifted = self.coefficients.copy()
+            shifted[:, 0] += float(other)
+            return Signal(self.edges, shifted)
+        if self.edges.shape == other.edges.shape and (self.edges == other.edges).all():
+            return Signal(self.edges, _padded(self.coefficients, other) + _padded(other.coefficients, self))
+        end = min(self.end, other.end)
+        edges = np.unique(np.concatenate([self.edges, other.edges]))
+        edges = edges[edges <= end]
+        keep = np.append(True, np.diff(edges) > 1e-13 * max(abs(end), 1e-300))
+        edges = edges[keep]
+        a, b = self.on(edges), other.on(edges)
+        return Signal(edges, _padded(a.coefficients, b) + _padded(b.coefficients, a))
+
+    def __mul__(self, factor: float) -> "Signal":
+        return Signal(self.edges, float(factor) * self.coefficients)
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> "Signal":
+        return self * -1.0
+
+    def __sub__(self, other: "Signal | float") -> "Signal":
+        return self + (-other)
+
+    def __rsub__(self, other: float) -> "Signal":
+        return (-self) + other
+
+    def derivative(self) -> "Signal":
+        """The derivative inside the cells; jumps at edges leave no trace."""
+        if self.coefficients.shape[1] == 1:
+            return Signal(self.edges, np.zeros_like(self.coefficients))
+        slopes = legendre.legder(self.coefficients, axis=1)
+        return Signal(self.edges, slopes * (2 / self.lengths)[:, None])
+
+    def roots(self, level: float = 0.0) -> np.ndarray:
+        """All times where the signal equals `level` or jumps across it, ascending."""
+        found = []
+        scale = max(float(np.abs(self.coefficients).sum(axis=1).max()), abs(level))
+        for i, row in enumerate((self - level).coefficients):
+            if abs(row[0]) > np.abs(row[1:]).sum() or np.abs(row).max() <= 1e-15 * scale:
+                continue
+            trimmed = legendre.legtrim(row, 1e-16 * np.abs(row).max())
+            x = np.atleast_1d(legendre.legroots(trimmed))
+            x = x[(abs(x.imag) < 1e-7) & (abs(x.real) <= 1 + 1e-10)].real
+            slope = legendre.legder(trimmed) if len(trimmed) > 1 else np.zeros(1)
+            for _ in range(2):
+                rise = legendre.legval(x, slope)
+                safe = np.where(rise == 0, np.inf, rise)
+                x = np.clip(x - np.clip(legendre.legval(x, trimmed) / safe, -1e-6, 1e-6), -1, 1)
+            found.extend(self.edges[i] + (x + 1) / 2 * self.lengths[i])
+        for t in self.edges[:-1]:
+            before, after = self.limit_before(t) - level, float(self(t)) - level
+            if before * after < 0:
+                found.append(t)
+        found = np.sort(found)
+        distinct = np.append(True, np.diff(found) > 1e-12 * self.end) if found.size else slice(None)
+        return found[distinct]
+
+    def extremes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Times and values of all candidates for a maximum or minimum: turning points and both sides of every edge."""
+        times = np.concatenate([self.derivative().roots(), self.edges])
+        left = [self.limit_before(t) for t in self.edges[1:]]
+        order = np.argsort(times, kind="stable")
+        t, values = times[order], self(times)[order]
+        return np.concatenate([t, self.edges[1:]]), np.concatenate([values, left])
+
+    def maximum(self) -> tuple[float, float]:
+        """(time, value) of the largest value."""
+        t, v = self.extremes()
+        return float(t[np.argmax(v)]), float(v.max())
+
+    def minimum(self) -> tuple[float, float]:
+        """(time, value) of the smallest value."""
+        t, v = self.extremes()
+        return float(t[np.argmin(v)]), float(v.min())
+
+    def peak(self) -> tuple[float, float]:
+        """(time, value) of the largest magnitude; the value keeps its sign."""
+        t, v = self.extremes()
+        i = int(np.argmax(np.abs(v)))
+        return float(t[i]), float(v[i])
+
+    def integral(self) -> float:
+        """The integral over all cells [unit s]."""
+        return float(self.coefficients[:, 0] @ self.lengths)
+
+    def integral_of_square(self) -> float:
+        """The integral of the square, exact for the polynomials: sum of c_k^2 d/(2k+1)."""
+        weights = 1 / (2 * np.arange(self.coefficients.shape[1]) + 1)
+        return float((self.coefficients**2 @ weights) @ self.lengths)
+
+    def integral_of_magnitude(self) -> float:
+        """The integral of |f|, split where f changes sign."""
+        edges = np.unique(np.concatenate([self.edges, self.roots()]))
+        edges = edges[np.append(True, np.diff(edges) > 1e-14 * self.end)]
+        edges[-1] = self.end
+        pieces = self.on(edges)
+        return float(np.abs(pieces.coefficients[:, 0]) @ pieces.lengths)
+
+
+def _padded(rows: np.ndarray, other: Signal) -> np.ndarray:
+    missing = other.coefficients.shape[1] - rows.shape[1]
+    return np.pad(rows, ((0, 0), (0, max(missing, 0))))
+
+
+def _sampling(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Gauss nodes and the matrix from values there to Legendre coefficients, exact below degree `count`."""
+    nodes, weights = legendre.leggauss(count)
+    vandermonde = legendre.legvander(nodes, count - 1)
+    return nodes, (vandermonde * weights[:, None]).T * (np.arange(count)[:, None] + 0.5)

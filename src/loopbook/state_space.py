@@ -1,0 +1,44 @@
+"""State space with one denominator for several inputs: what an exact simulation runs on.
+
+The realisation is the observer form, which shares the poles between the inputs (an integrator stands once), followed
+by a diagonal scaling that balances rows and columns.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class StateSpace:
+    """x' = A x + B w, y = C x + D w with several inputs w and one output. Shapes (n, n), (n, k), (1, n), (1, k)."""
+
+    A: np.ndarray
+    B: np.ndarray
+    C: np.ndarray
+    D: np.ndarray
+
+
+def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> StateSpace:
+    """The outputs of several proper transfer functions nums[j]/den added up, with n = degree of den states.
+
+    den, nums: descending coefficients; each num at most as long as den. Raises ValueError otherwise.
+    """
+    from scipy.linalg import matrix_balance
+
+    a = np.asarray(den, dtype=float)
+    n = len(a) - 1
+    if any(len(num) > n + 1 for num in nums):
+        raise ValueError("an improper transfer function has no state space")
+    rows = np.array([np.pad(num, (n + 1 - len(num), 0)) for num in nums], dtype=float) / a[0]
+    a = a / a[0]
+    D = rows[:, :1].T
+    B = (rows[:, 1:] - rows[:, :1] * a[1:]).T
+    A = np.eye(n, k=1)
+    A[:, :1] -= a[1:, None] if n else 0.0
+    C = np.eye(1, n)
+    if n:
+        A, (scale, _) = matrix_balance(A, permute=False, separate=True)
+        B, C = B / scale[:, None], C * scale
+    return StateSpace(A, B, C, D)
