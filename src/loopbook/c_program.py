@@ -96,21 +96,24 @@ def closed_loop(
     total: Any = 0,
     x1: Any = 0,
     u: Any = 0,
+    setpoint: Callable[[float], Any] | None = None,
 ) -> list[tuple]:
     """Rows (t, x1, x2, u, w) of the closed loop after a step of the set-point.
 
     The row at time t is written before the regulator runs: its u is the one that acted *up to* t.
     anti_windup: undo the sum of the errors while the output is limited. first_difference: let the D term act on the
     first sample too, from e(-1) = 0. total, x1, u: the stored sum, the output and the control signal to start from
-    (default rest); `derivations.positional_pid.bumpless_total` gives the sum for a start without a bump.
+    (default rest); `derivations.positional_pid.bumpless_total` gives the sum for a start without a bump. setpoint: w as
+    a function of t [s], in place of the step.
     """
     number = number or _single()
     p, plant, regulator = program.cast(number), _function("plant"), _function("regulator")
     t, x1, x2, u, total, last = number(0), number(x1), number(0), number(u), number(total), number(0)
     started, rows = first_difference, []
     while t <= p["t_end"]:
-        rows.append((t, x1, x2, u, p["level"]))
-        e = p["level"] - x1
+        w = number(setpoint(float(t))) if setpoint else p["level"]
+        rows.append((t, x1, x2, u, w))
+        e = w - x1
         total = total + e
         up, ui, ud = regulator(e, last, total, p["Kp"], p["Ti"], p["Td"], p["h"])
         value = up + ui + (ud if started else number(0))
