@@ -1,0 +1,126 @@
+"""Step and frequency experiment together: Kp e^(-L1 s)/((1 + s T1)(1 + s T2)) (pid-report, section 5.2.7).
+
+T1 follows from the gain at -180 degrees and L1 from the phase, for any alpha = T2/T1; what is left is one equation in
+alpha, the step response at T63 (`derivations.two_lags`). `solve` brackets its root. `grid` walks through 100,000 alphas
+as the program of figure 5.12 does, with its sums and its rounding.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from loopbook.experiments.data import FrequencyData, StepData, TwoLagData
+from loopbook.experiments.plant import ExperimentError
+
+PRINTED_TAIL = 0.37
+
+
+@cache
+def _functions(backend: str):
+    """T1(alpha, w, Kp, Ku), L1(w, T1, T2), e1(T1, T2, L1, T63, tail), the same for equal lags, e2 and e3."""
+    import sympy
+
+    from derivations import two_lags as d
+
+    tail = sympy.Symbol("tail")
+    found = d.residuals(tail)
+    first = sympy.lambdify((d.alpha, d.omega, d.K_p, d.K_u), d.first_lag(), backend)
+    dead = sympy.lambdify((d.omega, d.T_1, d.T_2), d.dead_time(), backend)
+    arguments = (d.T_1, d.T_2, d.L_1, d.T_63, tail)
+    e1, equal = (sympy.lambdify(arguments, e, backend) for e in (found.e1, found.e1_equal))
+    e2 = sympy.lambdify((d.T_1, d.T_2, d.omega, d.K_p, d.K_u), found.e2, backend)
+    e3 = sympy.lambdify((d.T_1, d.T_2, d.L_1, d.omega), found.e3, backend)
+    return first, dead, e1, equal, e2, e3
+
+
+def lags(alpha: float, step: StepData, frequency: FrequencyData) -> tuple[float, float, float]:
+    """T1, T2 and L1 that give gain and phase at -180 degrees for one alpha in (0, 1]."""
+    first, dead, *_ = _functions("math")
+    T1 = first(alpha, frequency.w180, step.Kp, frequency.Ku)
+    return T1, alpha * T1, dead(frequency.w180, T1, alpha * T1)
+
+
+def residual(alpha: float, step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) -> float:
+    """What the step response at T63 lacks of 1 - tail, for one alpha; the root is the answer."""
+    _, _, e1, equal, *_ = _functions("math")
+    T1, T2, L1 = lags(alpha, step, frequency)
+    if step.T63 <= L1:
+        return tail - 1.0
+    return equal(T1, T1, L1, step.T63, tail) if abs(alpha - 1) < 1e-7 else e1(T1, T2, L1, step.T63, tail)
+
+
+def solve(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) -> TwoLagData:
+    """The two-lag model with this step and frequency data, to rounding.
+
+    tail: what of the step is left at T63; e^-1, or 0.37 as section 5.2.7 prints.
+    Raises ExperimentError where kappa = K180/Kp >= 1, or where no alpha in (0, 1] satisfies the equation: the process
+    is then not of this form, and one of the simpler rules applies.
+
+    >>> found = solve(StepData(1, 1.04, 0.075), FrequencyData(0.0091, 0.199), tail=0.37)
+    >>> round(found.T1, 4), round(found.T2, 4), round(found.L1, 4)
+    (0.9988, 0.1057, 0.0102)
+    """
+    from scipy.optimize import brentq
+
+    if frequency.kappa(step.Kp) >= 1:
+        raise ExperimentError(
+            f"kappa = K180/Kp = {frequency.kappa(step.Kp):.4g} >= 1: no lag lowers the gain at -180 degrees; the "
+            "process is nearly a pure dead time, use amigo.pi_step or amigo.pid_step"
+        )
+    grid = np.concatenate([np.logspace(-6, -2, 60)[:-1], np.linspace(0.01, 1.0, 100)])
+    values = [residual(a, step, frequency, tail) for a in grid]
+    change = [i for i in range(len(grid) - 1) if values[i] * values[i + 1] <= 0]
+    if not change:
+        raise ExperimentError(
+            f"no T2/T1 between 0 and 1 gives both T63 = {step.T63:.4g} s and the frequency data (the residual stays "
+            f"between {min(values):.3g} and {max(values):.3g}): two lags and a dead time do not describe the process; "
+            "use amigo.pid_step, or amigo.pid_frequency where kappa > 0.2"
+        )
+    i = change[0]
+    alpha = brentq(residual, grid[i], grid[i + 1], (step, frequency, tail), xtol=1e-15, rtol=1e-13)
+    T1, T2, L1 = lags(alpha, step, frequency)
+    if L1 < 0:
+        raise ExperimentError(f"the model would need a negative dead time, L1 = {L1:.3g} s")
+    return TwoLagData(step.Kp, T1, T2, L1)
+
+
+@dataclass(frozen=True)
+class GridSearch:
+    """The outcome of the printed program: the best alpha with its error and lags, and how many alphas were tried.
+
+    equal_lags: whether the branch for alpha = 1 was ever taken. largest_e2, largest_e3: of the residuals that vanish.
+    """
+
+    error: float
+    alpha: float
+    data: TwoLagData
+    tried: int
+    equal_lags: bool
+    largest_e2: float
+    largest_e3: float
+
+
+def grid(step: StepData, frequency: FrequencyData, spacing: float = 1e-5, tail: float = PRINTED_TAIL) -> GridSearch:
+    """Walk alpha from `spacing` to 1 by repeated addition, in double precision, and keep the smallest error.
+
+    The accumulated sum matters: after 100,000 additions alpha is not exactly 1.
+    """
+    count = round(1 / spacing) + 2
+    alpha = np.cumsum(np.full(count, spacing))  # adds in order, as the program does
+    alpha = alpha[alpha <= 1.0]
+    first, dead, e1, equal, e2, e3 = _functions("numpy")
+    w, Kp, Ku = frequency.w180, step.Kp, frequency.Ku
+    T1 = first(alpha, w, Kp, Ku)
+    T2 = alpha * T1
+    L1 = dead(w, T1, T2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one = np.where(alpha != 1.0, e1(T1, T2, L1, step.T63, tail), equal(T1, T2, L1, step.T63, tail))
+    two, three = e2(T1, T2, w, Kp, Ku), e3(T1, T2, L1, w)
+    error = np.sqrt(one**2 + two**2 + three**2)
+    best = int(np.argmin(error))
+    found = TwoLagData(Kp, float(T1[best]), float(T2[best]), float(L1[best]))
+    exact_one = bool((alpha == 1.0).any())
+    largest = float(abs(two).max()), float(abs(three).max())
+    return GridSearch(float(error[best]), float(alpha[best]), found, len(alpha), exact_one, *largest)

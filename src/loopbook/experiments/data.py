@@ -1,0 +1,126 @@
+"""What an experiment tells about a process: the small sets of numbers that tuning rules start from.
+
+Gains are positive (change the sign of u where the process turns it), times in s. Each set refuses numbers that no
+process gives.
+"""
+
+import math
+from dataclasses import dataclass
+
+
+class DataError(ValueError):
+    """Numbers that no experiment on a process of this kind can give."""
+
+
+def _positive(where: str, **named: float) -> None:
+    for name, value in named.items():
+        if not (math.isfinite(value) and value > 0):
+            raise DataError(f"{where}: {name} = {value!r} must be a positive finite number")
+
+
+def _time(where: str, **named: float) -> None:
+    for name, value in named.items():
+        if not (math.isfinite(value) and value >= 0):
+            raise DataError(f"{where}: {name} = {value!r} s must be zero or a positive time")
+
+
+@dataclass(frozen=True)
+class StepData:
+    """A stable process from its step response: Kp [y/u], T [s] (63 % less dead time), L [s] (tangent).
+
+    >>> StepData(Kp=1, T=1.04, L=0.075).tau.__round__(4)
+    0.0673
+    """
+
+    Kp: float
+    T: float
+    L: float
+
+    def __post_init__(self):
+        _positive("step data", Kp=self.Kp)
+        _time("step data", T=self.T, L=self.L)
+        if self.T + self.L == 0:
+            raise DataError("step data: T = L = 0: the output follows the input at once, there is nothing to tune")
+
+    @property
+    def tau(self) -> float:
+        """The relative dead time L/(L + T), 0 to 1."""
+        return self.L / (self.L + self.T)
+
+    @property
+    def T63(self) -> float:
+        """The instant at which 63 % of the step are reached, L + T [s]."""
+        return self.L + self.T
+
+
+@dataclass(frozen=True)
+class IntegratingStepData:
+    """An integrating process from its step response: Kv [y/(u s)], L [s] where the final tangent starts."""
+
+    Kv: float
+    L: float
+
+    def __post_init__(self):
+        _positive("step data of an integrating process", Kv=self.Kv)
+        _time("step data of an integrating process", L=self.L)
+
+
+@dataclass(frozen=True)
+class FrequencyData:
+    """The process where its phase is -180 degrees: K180 = |G| [y/u] and the period T180 [s].
+
+    >>> FrequencyData(K180=0.0091, T180=0.199).Ku.__round__(1)
+    109.9
+    """
+
+    K180: float
+    T180: float
+
+    def __post_init__(self):
+        _positive("frequency data", K180=self.K180, T180=self.T180)
+
+    @property
+    def Ku(self) -> float:
+        """The ultimate gain 1/K180 [u/y]."""
+        return 1 / self.K180
+
+    @property
+    def w180(self) -> float:
+        """The ultimate frequency 2 pi/T180 [rad/s]."""
+        return 2 * math.pi / self.T180
+
+    def kappa(self, Kp: float) -> float:
+        """The gain ratio K180/Kp; Kp = inf (an integrating process) gives 0."""
+        return self.K180 / Kp
+
+
+@dataclass(frozen=True)
+class TwoLagData:
+    """Kp e^(-L1 s)/((1 + s T1)(1 + s T2)), T2 <= T1, from a step and a frequency experiment together."""
+
+    Kp: float
+    T1: float
+    T2: float
+    L1: float
+
+    def __post_init__(self):
+        _positive("two-lag data", Kp=self.Kp)
+        _time("two-lag data", T1=self.T1, T2=self.T2, L1=self.L1)
+
+
+@dataclass(frozen=True)
+class IntegratingPulseData:
+    """Kv e^(-L1 s)/(s (1 + s T2)) from the response to a short pulse: Kv [y/(u s)], T2 [s], L1 [s]."""
+
+    Kv: float
+    T2: float
+    L1: float
+
+    def __post_init__(self):
+        _positive("pulse data", Kv=self.Kv)
+        _time("pulse data", T2=self.T2, L1=self.L1)
+
+    @property
+    def step(self) -> IntegratingStepData:
+        """What a step experiment sees of the same process: its L is L1 + T2."""
+        return IntegratingStepData(self.Kv, self.L1 + self.T2)

@@ -1,0 +1,292 @@
+"""MIGO: the PI and PID regulators of largest integral gain for a given robustness.
+
+Maximise ki = K/Ti subject to |C + L(i w)| >= R for all w: the Nyquist curve of L = G (k + ki/s + kd s) stays out of the
+circle that encloses both the Ms and the Mp circle of value M (`derivations.robustness.joint_circle`).
+
+Where the curve touches the circle smoothly, k, ki and kd are explicit functions of the touching frequency w
+(`derivations.robustness.smooth_branch`). So the optimum needs no search in three dimensions:
+
+    PI    kd(w) = 0, on the rising branch: one root of one function
+    PID   kd and ki both grow with w; follow w upwards until the curve touches the circle a second time, at w2
+
+The second touch is the largest kd whose smooth optimum is feasible for all frequencies. Larger ki exist beyond it, on
+the edge where two frequencies bind at once, with erratic responses; the method leaves them out on purpose.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from loopbook.frequency import NoSuchFrequency, frequency_at, phase, response
+from loopbook.process import Process
+from loopbook.tuning import RuleDoesNotApply, Tuning
+
+SOURCE = "Åström, Panagopoulos, Hägglund (1998, 2002); pid-report, section 5.3"
+M_DEFAULT = 1.4
+TOLERANCE = 1e-7  # of the distance to the circle: what rounding may take off it
+
+
+@dataclass(frozen=True)
+class Migo(Tuning):
+    """A MIGO optimum.
+
+    M: the joint robustness asked for. ki [u/(y s)], kd [u s/y]: the gains. touches: the frequencies [rad/s] at which
+    the Nyquist curve touches the circle (inf where dead time turns a loop gain that does not fade). stable: by the
+    argument count of the loop.
+    """
+
+    M: float = M_DEFAULT
+    ki: float = 0.0
+    kd: float = 0.0
+    touches: tuple[float, ...] = ()
+    stable: bool = False
+
+
+@cache
+def circle(M: float) -> tuple[float, float]:
+    """Centre distance C and radius R of the joint circle around -C, for M > 1.
+
+    >>> circle(2.0)
+    (1.25, 0.75)
+    """
+    import sympy
+
+    from derivations import robustness
+
+    if not M > 1:
+        raise ValueError(f"M = {M}: a loop's largest sensitivity exceeds 1, so M must")
+    joint = robustness.joint_circle()
+    at = {robustness.M: sympy.Float(M, 30)}
+    return -float(joint.centre.subs(at)), float(joint.radius.subs(at))
+
+
+@cache
+def _branch_functions():
+    """k, ki and kd of the smooth branch as NumPy functions of (w, a, b, r, da, db, C, R)."""
+    import sympy
+
+    from derivations import robustness as d
+
+    found = d.smooth_branch()
+    arguments = (d.w, d.a, d.b, d.r, d.da, d.db, d.C, d.R)
+    return [sympy.lambdify(arguments, e, "numpy", cse=True) for e in (found.k, found.k_i.subs(d.k_d, 0), found.k_d)]
+
+
+def smooth_branch(process: Process, w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
+    """k, ki and kd, shape (3, *w.shape), for touching frequencies w [rad/s]."""
+    w = np.asarray(w, dtype=float)
+    g, slope = response(process, w)
+    arguments = (w, g.real, g.imag, abs(g), slope.real, slope.imag, *circle(M))
+    k, ki_of_pi, kd = (f(*arguments) for f in _branch_functions())
+    return np.array([k, ki_of_pi + w**2 * kd, kd])
+
+
+def clearance(process: Process, gains, w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
+    """|C + L(i w)| - R: negative inside the circle. gains: (k, ki, kd), each a number or broadcastable against w."""
+    k, ki, kd = gains
+    C, R = circle(M)
+    return abs(C + process(1j * w) * (k + 1j * (kd * w - ki / w))) - R
+
+
+def pi(process: Process, M: float = M_DEFAULT) -> Migo:
+    """The PI regulator of largest ki for the joint robustness M.
+
+    process: with or without dead time, stable or integrating. Returns standard form; K [u/y], Ti [s].
+    Raises RuleDoesNotApply where no smooth optimum exists, or where another frequency enters the circle before it.
+
+    >>> best = pi(Process((1.0,), (1.0, 3.0, 3.0, 1.0)))
+    >>> round(best.K, 3), round(best.Ti, 2)
+    (0.606, 2.09)
+    """
+    w = _pi_frequency(process, M)
+    k, ki, _ = smooth_branch(process, np.array(w), M)
+    worst, at = _deepest(process, np.array([[k], [ki], [0.0]]), M)
+    if worst[0] < -TOLERANCE:
+        raise RuleDoesNotApply(
+            f"MIGO PI: the smooth optimum K = {k:.4g}, ki = {ki:.4g} enters the M = {M} circle at {at[0]:.4g} rad/s; "
+            "its largest ki lies on an edge where two frequencies bind"
+        )
+    return _result(process, "MIGO PI", M, (k, ki, 0.0), (w,))
+
+
+def pid(process: Process, M: float = M_DEFAULT) -> Migo:
+    """The PID regulator of largest kd whose smooth optimum keeps the joint robustness M at all frequencies.
+
+    process: with or without dead time, stable or integrating. The derivative has no filter. Returns standard form.
+    Raises RuleDoesNotApply as `pi` does, and where ki grows without bound (second order without dead time).
+
+    >>> best = pid(Process((1.0,), (1.0, 3.0, 3.0, 1.0)))
+    >>> round(best.K, 2), round(best.Ti, 2), round(best.Td, 2)
+    (2.63, 1.49, 0.91)
+    """
+    start = pi(process, M).touches[0]
+    low, high, second = _first_violation(process, start, _branch_end(process, start, M), M)
+    if math.isinf(second):
+        w = _where_derivative_is(process, _kd_limit(process, M), low, high, M)
+    else:
+        w, second = _second_touch(process, start, low, high, second, M)
+    return _result(process, "MIGO PID", M, tuple(smooth_branch(process, np.array(w), M)), (w, second))
+
+
+def _reference(process: Process) -> float:
+    """A frequency that scales all grids: where the phase is -150 degrees."""
+    if not process.num[-1] / process.den[np.flatnonzero(process.den)[-1]] > 0:
+        raise RuleDoesNotApply("MIGO: the gain of the process is not positive; change the sign of u, tune, change back")
+    if (process.poles.real > 1e-12).any():
+        raise RuleDoesNotApply(f"MIGO: the process is unstable by itself, poles {process.poles}")
+    try:
+        return frequency_at(process, math.radians(-150))
+    except NoSuchFrequency as error:
+        raise RuleDoesNotApply(f"MIGO: {error}, so ki has no finite optimum") from None
+
+
+def _pi_frequency(process: Process, M: float) -> float:
+    """The touching frequency of the PI optimum: where kd(w) rises through zero with positive gains."""
+    from scipy.optimize import brentq
+
+    w = _reference(process) * np.logspace(-3, 0.7, 400)
+    k, ki, kd = smooth_branch(process, w, M)
+    below_ultimate = phase(process, w) > -math.pi  # above it the loops on the branch are unstable
+    rising = np.flatnonzero((kd[:-1] <= 0) & (kd[1:] > 0) & (ki[1:] > 0) & (k[1:] > 0) & below_ultimate[1:])
+    if not rising.size:
+        raise RuleDoesNotApply("MIGO PI: ki has no smooth maximum under this robustness")
+    best = rising[np.argmax(ki[rising])]
+    return float(brentq(lambda x: smooth_branch(process, np.array(x), M)[2], w[best], w[best + 1], rtol=1e-14))
+
+
+def _branch_end(process: Process, start: float, M: float) -> float:
+    """How far the branch goes up from the PI optimum: kd rises and ki is positive."""
+    w = start * np.logspace(0, 2.5, 800)
+    _, ki, kd = smooth_branch(process, w, M)
+    turned = np.flatnonzero((np.diff(kd) < 0) | (ki[1:] <= 0))
+    return float(w[turned[0]] if turned.size else w[-1])
+
+
+def _kd_limit(process: Process, M: float) -> float:
+    """The largest kd where dead time turns a loop gain kd b0/a0 that does not fade: |L| <= (M-1)/M; else inf."""
+    if not process.delay or process.relative_degree > 1:
+        return math.inf
+    C, R = circle(M)
+    return (C - R) * abs(process.den[0] / process.num[0])
+
+
+def _grid(process: Process, gains: np.ndarray, M: float, density: int) -> np.ndarray:
+    """Frequencies dense enough to see every approach to the circle: 1.5 % apart, 0.2 rad apart in dead-time phase.
+
+    density: so many times as dense.
+
+    It ends where |L| has faded below the circle's near end for all the gains (or 150 dead-time radians, where it
+    does not fade: `_kd_limit` decides there).
+    """
+    coarse = _reference(process) * np.logspace(-3, 2.5, 850 * density)
+    if not process.delay:
+        return coarse
+    k, ki, kd = (np.max(abs(x)) for x in gains)
+    far = np.logspace(-1, 4, 300) / process.delay
+    size = abs(process(1j * far)) * np.hypot(k, kd * far + ki / far)
+    C, R = circle(M)
+    loud = np.flatnonzero(size >= C - R)
+    end = min(far[loud[-1]] if loud.size else 0.0, 2000 / process.delay)
+    if math.isfinite(_kd_limit(process, M)):
+        end = 150 / process.delay
+    fine = np.arange(0.2 / density, 1 + end * process.delay, 0.2 / density) / process.delay
+    return np.union1d(coarse, fine)
+
+
+def _deepest(process: Process, gains: np.ndarray, M: float, density: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """The smallest clearance of each column of gains, shape (3, n), and the frequency where it occurs, (n,).
+
+    The frequency is inf where the limit of the loop gain at high frequency decides.
+    """
+    w = _grid(process, gains, M, density)
+    g = process(1j * w)
+    C, R = circle(M)
+    k, ki, kd = (x[:, None] for x in gains)
+    room = abs(C + g * (k + 1j * (kd * w - ki / w))) - R
+    at = room.argmin(axis=1)
+    depth, where = room[np.arange(len(at)), at], w[at]
+    limit = _kd_limit(process, M)
+    beyond = gains[2] > limit
+    return np.where(beyond, -1.0, depth), np.where(beyond, math.inf, where)
+
+
+def _first_violation(process: Process, start: float, end: float, M: float) -> tuple[float, float, float]:
+    """A bracket (feasible, infeasible) of touching frequencies on the branch, and where the curve enters the circle."""
+    low, high, second = start, end, math.nan
+    while high / low > 1.002:
+        w = np.geomspace(low, high, 24)[1:]
+        depth, at = _deepest(process, smooth_branch(process, w, M), M)
+        bad = np.flatnonzero(depth < -TOLERANCE)
+        if not bad.size:
+            if math.isnan(second):
+                raise RuleDoesNotApply("MIGO PID: no second touch, ki grows with kd without bound")
+            return float(w[-2]), float(w[-1]), second
+        first = bad[0]
+        high, second = float(w[first]), float(at[first])
+        low = float(w[first - 1]) if first else low
+    return low, high, second
+
+
+def _where_derivative_is(process: Process, kd: float, low: float, high: float, M: float) -> float:
+    """The touching frequency in (low, high) at which the branch has the derivative gain kd."""
+    from scipy.optimize import brentq
+
+    return float(brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, rtol=1e-13))
+
+
+def _second_touch(process: Process, start: float, low: float, high: float, near: float, M: float):
+    """The touching frequencies w and w2 where the smallest clearance around w2 is exactly zero.
+
+    Dead time brings the curve past the circle once a turn, and the grid may have seen the wrong turn first. So the
+    settings found are looked at once more, eight times as densely, and the deeper turn is taken if there is one.
+    """
+    from scipy.optimize import brentq
+
+    for _ in range(5):
+        at_low, second = _local_clearance(process, low, near, M)
+        if at_low <= 0:
+            low, high = start, low
+        w = float(brentq(lambda x: _local_clearance(process, x, near, M)[0], low, high, rtol=1e-12))  # noqa: B023
+        second = _local_clearance(process, w, near, M)[1]
+        depth, at = _deepest(process, smooth_branch(process, np.array([w]), M), M, density=8)
+        if depth[0] >= -TOLERANCE:
+            break
+        near, high = float(at[0]), w
+    return w, second
+
+
+def _local_clearance(process: Process, w: float, near: float, M: float) -> tuple[float, float]:
+    """The smallest clearance within 10 % of the frequency `near`, and where; by zooming in and a final parabola."""
+    gains = smooth_branch(process, np.array(w), M)
+    span, centre = 1.1, near
+    for _ in range(5):
+        x = centre * np.geomspace(1 / span, span, 41)
+        room = clearance(process, gains, x, M)
+        i = int(np.clip(room.argmin(), 1, 39))
+        centre, span = x[i], span ** (1 / 8)
+    left, middle, right = room[i - 1 : i + 2]
+    bend = left - 2 * middle + right
+    return float(middle - (right - left) ** 2 / (8 * bend) if bend > 0 else middle), float(centre)
+
+
+def _result(process: Process, rule: str, M: float, gains: tuple[float, float, float], touches) -> Migo:
+    from loopbook.forms import PidStandard
+
+    k, ki, kd = map(float, gains)
+    settings = PidStandard(K=k, Ti=k / ki, Td=kd / k, b=0.0)
+    stable = is_stable(process, settings)
+    if not stable:
+        raise RuleDoesNotApply(f"{rule}: the loop with {settings} is unstable by its argument count")
+    return Migo(settings, rule, SOURCE, (), M, ki, kd, tuple(map(float, touches)), stable)
+
+
+def is_stable(process: Process, regulator) -> bool:
+    """Are all roots of the loop to the left of the imaginary axis, by its argument count?"""
+    from loopbook.loop_transfer import LoopTransfer
+    from loopbook.stability import unstable_roots
+
+    num, den = regulator.transfer()
+    loop = LoopTransfer(tuple(np.polymul(num, process.num)), tuple(np.polymul(den, process.den)), process.delay)
+    return unstable_roots(loop) == 0
