@@ -6,7 +6,7 @@ y and y_sp. Source: pid-report, section 4.2.6; it changes I so that P + I stays 
 
 from functools import cache
 
-from sympy import Eq, Expr, Symbol, collect, simplify, solve
+from sympy import Eq, Expr, Symbol, collect, simplify, solve, symbols
 
 from derivations import pid_code as code
 from derivations.equivalence import one_pass, states_from
@@ -115,3 +115,20 @@ def late_correction() -> Expr:
     share = next(a.value for a in code.separate().before if a.target == code.P)
     change = _changed("K", share) - share
     return simplify(change - change.subs(code.y, code.y_old))
+
+
+@cache
+def keep_both_parts() -> dict[Symbol, Expr]:
+    """New x and I of the weighted program for which D and P + I are the same at the last y and y_sp.
+
+    Solved from x_new - p24_new (y - c_new y_sp) = D and K_new (b_new y_sp - y) + I_new = P + I; nothing is divided by.
+    """
+    p24_old, p24_new = symbols("p_24old p_24new")
+    c_old, c_new = symbols("c_old c_new", nonnegative=True)
+    x_new = Symbol("x_new", real=True)
+    slope = Eq(
+        x_new - p24_new * (code.y - c_new * code.ysp),
+        code.x - p24_old * (code.y - c_old * code.ysp),
+    )
+    integral = keep_p_plus_i().rhs.subs(I_old, code.I)
+    return {code.x: collect(solve(slope, x_new)[0], [p24_old, p24_new]), code.I: integral}

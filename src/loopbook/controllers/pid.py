@@ -1,0 +1,193 @@
+"""The discrete PID controller: one sample at a time, or many at once.
+
+    v = p1 y_sp - p2 y + I + x                   before the output is set (pid-report, eq. 4.20)
+    u = v limited to [u_low, u_high] and in rate                  (eq. 4.2)
+    x = p3 x + p4 (y - c y_sp)                   after it         (eq. 4.16)
+    I = I + p5 (y_sp - y) + p6 (u - v)           with tracking    (eq. 4.5)
+
+The functions that run are written from the derived expressions, see `loopbook.controllers.generated`.
+"""
+
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from loopbook.controllers import generated
+from loopbook.controllers.settings import PidSettings, SettingError
+
+AUTO, MANUAL = "auto", "manual"
+
+
+class BadMeasurement(ValueError):
+    """y or y_sp is not a finite number; the state is as before that sample. ``output``: the last output, to be held."""
+
+    def __init__(self, name: str, value: Any, output: Any, sample: int | None = None):
+        self.name, self.value, self.output, self.sample = name, value, output, sample
+        where = "" if sample is None else f" at sample {sample}"
+        super().__init__(f"{name} = {value!r}{where} is not a finite number; state kept, last output {output!r}")
+
+
+class BadMeasurementWarning(UserWarning):
+    """A measurement was skipped and the last output held (``on_bad="hold"``)."""
+
+
+class Pid:
+    """A PID controller with its state.
+
+    settings: `PidSettings`, all numbers floats or all exact (int, Fraction). I: start value of the integral part [u].
+    x: start value of the derivative's state [u]; None: at the first sample the derivative starts from rest, D = 0.
+    on_bad: "raise" raises `BadMeasurement` for a y or y_sp that is not finite; "hold" warns and holds the last output.
+    Attributes: I, x, u (last output), v (last unlimited output), mode ("auto" or "manual"), settings.
+
+    >>> pid = Pid(PidSettings(K=2.0, Ti=4.0, h=1.0, u_low=0.0, u_high=3.0))
+    >>> [pid.step(1.0, y) for y in (0.0, 0.5, 1.0)]
+    [2.0, 1.5, 0.75]
+    """
+
+    def __init__(self, settings: PidSettings, *, I: Any = 0, x: Any = None, on_bad: str = "raise"):
+        if on_bad not in ("raise", "hold"):
+            raise SettingError("on_bad", on_bad, "raise or hold")
+        self.on_bad = on_bad
+        self.mode = AUTO
+        self.I, self.x = I, 0 if x is None else x
+        self._started = x is not None
+        self.u = self.v = None
+        self._y_sp = self._y = None
+        self._manual = self._arriving = None
+        self._use(settings)
+
+    def _use(self, settings: PidSettings) -> None:
+        self.settings = s = settings
+        values = generated.gains()(s.K, s.Ti, s.Td, s.Tf, s.b, s.c, s.h, s.Tt)
+        for name, value in zip(generated.GAINS, values, strict=True):
+            setattr(self, f"_{name}", value)
+        self._gains = values
+        self._low, self._high = s.u_low, s.u_high
+        self._step = None if s.rate is None else s.rate * s.h
+        self._automatic = generated.step(s.anti_windup, s.rate is not None)
+        self._followed = generated.step("tracking", False)
+
+    def step(self, y_sp: Any, y: Any) -> Any:
+        """One sample: the output u for the set-point and the measurement of this sample."""
+        if y - y != 0 or y_sp - y_sp != 0:  # true for NaN and for infinities
+            return self._bad(y_sp, y)
+        self._y_sp, self._y = y_sp, y
+        if not self._started:
+            self.x = self._p_24 * (y - self.settings.c * y_sp)
+            self._started = True
+        if self._arriving is not None:
+            self._arrive(y_sp, y)
+        if self.mode == MANUAL:
+            return self._follow(y_sp, y)
+        return self._automatic(self, y_sp, y)
+
+    def _bad(self, y_sp: Any, y: Any) -> Any:
+        name, value = ("y", y) if y - y != 0 else ("y_sp", y_sp)
+        error = BadMeasurement(name, value, self.u)
+        if self.on_bad == "raise":
+            raise error
+        warnings.warn(str(error), BadMeasurementWarning, stacklevel=3)
+        return self.u
+
+    def _unlimited(self, y_sp: Any, y: Any) -> Any:
+        return self._p_1 * y_sp - self._p_2 * y + self.I + self.x
+
+    def _arrive(self, y_sp: Any, y: Any) -> None:
+        """First automatic sample after an exact transfer: I is set so that v is the last manual output."""
+        self.I += self._arriving - self._unlimited(y_sp, y)
+        self._arriving = None
+
+    def _follow(self, y_sp: Any, y: Any) -> Any:
+        """A manual sample: the algorithm runs and tracks the operator's output."""
+        low, high = self._low, self._high
+        self._low = self._high = self._manual
+        self._followed(self, y_sp, y)
+        self._low, self._high = low, high
+        return self.u
+
+    def manual(self, u: Any = None) -> Any:
+        """Switch to manual, or set another manual output. u: within the limits; default the last output (no jump)."""
+        value = self.u if u is None else u
+        if value is None:
+            raise SettingError("u", u, f"{self._low} <= u <= {self._high}", "no sample has run yet: give u")
+        if not self._low <= value <= self._high:
+            raise SettingError("u", value, f"{self._low} <= u <= {self._high}")
+        self.mode, self._manual, self._arriving = MANUAL, value, None
+        return value
+
+    def auto(self, transfer: str = "exact") -> None:
+        """Switch to automatic.
+
+        transfer: "exact" makes the first automatic output the last manual one, whatever the error is. "tracking"
+        (pid-report, section 4.2.5) relies on what tracking did during manual: it leaves K Tt/Ti e.
+        """
+        if transfer not in ("exact", "tracking"):
+            raise SettingError("transfer", transfer, "exact or tracking")
+        if self.mode == MANUAL and transfer == "exact":
+            self._arriving = self._manual
+        self.mode = AUTO
+
+    def change(self, bumpless: str = "exact", **settings: Any) -> PidSettings:
+        """Change settings between two samples; returns the new ones.
+
+        bumpless: "exact" keeps P + I and D at the last y and y_sp for any change of K, b, c, Td, Tf, h, Ti, Tt.
+        "integral" is the document's eq. 4.10, which keeps P + I and lets D jump. "none" changes no state.
+        Before the first sample there is nothing to keep. Raises SettingError and changes nothing where a setting is
+        out of range.
+        """
+        if bumpless not in ("exact", "integral", "none"):
+            raise SettingError("bumpless", bumpless, "exact, integral or none")
+        old, p24_old = self.settings, self._p_24
+        self._use(old.changed(**settings))
+        if self._y is not None and bumpless != "none":
+            new = self.settings
+            x, self.I = generated.bumpless_change()(
+                self.I, self.x, self._y_sp, self._y, old.K, old.b, old.c, p24_old, new.K, new.b, new.c, self._p_24
+            )
+            self.x = x if bumpless == "exact" else self.x
+        return self.settings
+
+    def run(self, y_sp: Any, y: Sequence[Any], out: Any = None) -> Any:
+        """Many automatic samples over recorded signals, fast.
+
+        y: measurements; y_sp: one set-point, or one per measurement. out: array or list to fill, default a new array
+        (floats) or list (anything else). Same results as `step` called for each, bit by bit.
+        Raises ValueError in manual mode or for signals of different length; a bad measurement as `step` does.
+        """
+        if self.mode == MANUAL:
+            raise ValueError("run() plays automatic samples; the controller is in manual: call auto() first")
+        y = y.tolist() if isinstance(y, np.ndarray) else list(y)
+        constant = not isinstance(y_sp, Sequence | np.ndarray)
+        y_sp = [y_sp] * len(y) if constant else y_sp.tolist() if isinstance(y_sp, np.ndarray) else list(y_sp)
+        if len(y_sp) != len(y):
+            raise ValueError(f"{len(y_sp)} set-points for {len(y)} measurements: as many of both are needed")
+        finite = np.isfinite(np.asarray(y, float)) & np.isfinite(np.asarray(y_sp, float))
+        stops = [*np.flatnonzero(~finite).tolist(), len(y)]
+        outputs: list[Any] = [None] * len(y)
+        done = 0
+        while done < len(y):
+            try:
+                outputs[done] = self.step(y_sp[done], y[done])  # first sample, arrival, bad measurements
+            except BadMeasurement as bad:
+                raise BadMeasurement(bad.name, bad.value, bad.output, done) from None
+            stop = next(k for k in stops if k > done)
+            self._play(y_sp, y, outputs, done + 1, stop)
+            done = stop
+        if out is None:
+            return np.array(outputs) if all(isinstance(u, float) for u in outputs) else outputs
+        out[:] = outputs
+        return out
+
+    def _play(self, y_sp: list[Any], y: list[Any], outputs: list[Any], start: int, stop: int) -> None:
+        if start >= stop:
+            return
+        s = self.settings
+        loop = generated.run(s.anti_windup, s.rate is not None)
+        numbers = (*self._gains, self._low, self._high, self._step)
+        part = [None] * (stop - start)
+        state = (self.I, self.x, self.v, self.u)
+        self.I, self.x, self.v, self.u = loop(numbers, state, y_sp[start:stop], y[start:stop], part)
+        outputs[start:stop] = part
+        self._y_sp, self._y = y_sp[stop - 1], y[stop - 1]

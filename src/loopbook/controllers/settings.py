@@ -1,0 +1,136 @@
+"""The settings of a discrete PID controller, checked.
+
+Source of the ranges and rules: pid-report, Table 5.1 and section 5.1.
+"""
+
+import math
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from numbers import Real
+from typing import Any
+
+ANTI_WINDUP = {
+    "tracking": "I follows the limited output with the time constant Tt (pid-report, eq. 4.5)",
+    "conditional": "I moves only where the output is not limited (figure 4.7); it can lock up",
+    "conditional-safe": "the same, but I also moves where that brings the output back from the limit",
+    "clamping": "I itself is kept between the output's limits",
+    "none": "I always moves: it winds up",
+}
+
+
+class SettingError(ValueError):
+    """A setting outside its range. Attributes: name, value, range."""
+
+    def __init__(self, name: str, value: Any, range: str, hint: str = ""):
+        self.name, self.value, self.range = name, value, range
+        super().__init__(f"{name} = {value!r} is outside its range: {range}{'; ' + hint if hint else ''}")
+
+
+def _number(name: str, value: Any, infinite: bool = False) -> None:
+    finite = isinstance(value, Real) and value == value and (infinite or abs(value) != math.inf)
+    if not finite or isinstance(value, bool):
+        raise SettingError(name, value, "a real number" if infinite else "a finite real number")
+
+
+def tracking_time(Ti: Any, Td: Any) -> Any:
+    """T_t = sqrt(Ti Td), or 0.5 Ti where Td = 0 [s]. Source: pid-report, section 4.2.3, from its [5] and [7].
+
+    Fractions give a fraction where the root is rational; else SettingError asks for Tt.
+
+    >>> tracking_time(4.0, 1.0), tracking_time(Fraction(3), Fraction(1, 3)), tracking_time(4, 0)
+    (2.0, Fraction(1, 1), Fraction(2, 1))
+    """
+    if Td == 0:
+        return Ti / 2 if isinstance(Ti, float) else Fraction(Ti) / 2
+    product = Ti * Td
+    if isinstance(product, float):
+        return math.sqrt(product)
+    product = Fraction(product)
+    root = Fraction(math.isqrt(product.numerator), math.isqrt(product.denominator))
+    if root * root != product:
+        if isinstance(Ti, int) and isinstance(Td, int):
+            return math.sqrt(product)
+        raise SettingError(
+            "Tt", None, "Tt > h/2", f"sqrt(Ti Td) = sqrt({product}) is irrational: give Tt as a fraction"
+        )
+    return root
+
+
+@dataclass(frozen=True, kw_only=True)
+class PidSettings:
+    """u = K (b y_sp - y) + I + D in the standard form, all times in seconds.
+
+    K: gain [u/y], not 0, negative where y falls when u rises. Ti: integral time > 0, None for no integral action.
+    Td: derivative time >= 0. Tf: time constant of the derivative's filter >= 0. b, c in [0, 1]: set-point weights of
+    P and D; c = 0 is derivative on measurement, c = 1 on error. h > 0: sampling interval. u_low < u_high: limits of
+    u, may be infinite. rate > 0: largest |du/dt| [u/s], None for none. anti_windup: a key of `ANTI_WINDUP`.
+    Tt > h/2: tracking time constant; None takes `tracking_time`, but not less than h (below h/2 the recursion
+    I -> (1 - h/Tt) I diverges, below h it alternates).
+    Raises SettingError with the name, the value and the range.
+    """
+
+    K: Any
+    Ti: Any = None
+    Td: Any = 0
+    Tf: Any = 0
+    b: Any = 1
+    c: Any = 0
+    h: Any
+    Tt: Any = None
+    u_low: Any = -math.inf
+    u_high: Any = math.inf
+    rate: Any = None
+    anti_windup: str = "tracking"
+
+    def __post_init__(self):
+        for name in ("K", "Td", "Tf", "b", "c", "h"):
+            _number(name, getattr(self, name))
+        for name in ("Ti", "Tt", "rate"):
+            if getattr(self, name) is not None:
+                _number(name, getattr(self, name))
+        for name in ("u_low", "u_high"):
+            _number(name, getattr(self, name), infinite=True)
+        if self.K == 0:
+            raise SettingError("K", self.K, "K > 0 or K < 0", "K = 0 controls nothing")
+        if self.h <= 0:
+            raise SettingError("h", self.h, "h > 0 s")
+        if self.Ti is not None and self.Ti <= 0:
+            raise SettingError("Ti", self.Ti, "Ti > 0 s", "Ti = None switches the integral action off")
+        for name in ("Td", "Tf"):
+            if getattr(self, name) < 0:
+                raise SettingError(name, getattr(self, name), f"{name} >= 0 s")
+        for name in ("b", "c"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise SettingError(name, getattr(self, name), f"0 <= {name} <= 1")
+        if not self.u_low < self.u_high:
+            raise SettingError("u_low", self.u_low, f"u_low < u_high = {self.u_high!r}")
+        if self.rate is not None and self.rate <= 0:
+            raise SettingError("rate", self.rate, "rate > 0 per second, or None")
+        if self.anti_windup not in ANTI_WINDUP:
+            raise SettingError("anti_windup", self.anti_windup, "one of " + ", ".join(ANTI_WINDUP))
+        if self.Tt is None:
+            if self.Ti is not None:
+                object.__setattr__(self, "Tt", max(tracking_time(self.Ti, self.Td), self.h))
+        elif 2 * self.Tt <= self.h:
+            raise SettingError("Tt", self.Tt, f"Tt > h/2 = {self.h / 2!r} s", "below it tracking diverges")
+
+    def changed(self, **settings: Any) -> "PidSettings":
+        """The same settings with some replaced; Tt stays as it is. SettingError for an unknown name."""
+        known = [f.name for f in fields(self)]
+        for name in settings:
+            if name not in known:
+                raise SettingError(name, settings[name], "one of " + ", ".join(known), "there is no such setting")
+        return replace(self, **settings)
+
+    @classmethod
+    def of(cls, form: Any, *, h: Any, **more: Any) -> "PidSettings":
+        """From a named PID form of `loopbook.forms` (standard, parallel or series), with the sampling interval h.
+
+        >>> from loopbook.forms import PidStandard
+        >>> PidSettings.of(PidStandard(2.0, 4.0, 1.0, N=10), h=0.1).Tf
+        0.1
+        """
+        standard = form.standard()
+        Ti = None if standard.Ti == math.inf else standard.Ti
+        names = ("K", "Td", "Tf", "b", "c")
+        return cls(Ti=Ti, h=h, **{name: getattr(standard, name) for name in names}, **more)
