@@ -1,0 +1,246 @@
+"""Many notebooks as one PDF: cover, parts, chapters, appendix, one numbering, one table of contents, links that work.
+
+pdf = export_book(
+    [Chapter("double_tank/03_pole_placement", notebook, part="Double tank")],
+    title="Control design, recomputed",
+    subtitle="Three documents and every number in them",
+    lines=["412 printed values checked"],
+    appendix=[Page("Ledger", [table, "All of [chapter 1](notebook:double_tank/03_pole_placement)."])],
+)
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from loopbook.pipeline.export.errors import ExportError, Problem
+from loopbook.pipeline.export.inline_text import read_inline
+from loopbook.pipeline.export.markdown import read_markdown
+from loopbook.pipeline.export.maths import problems
+from loopbook.pipeline.export.model import Block, Grid, Link, PageNumber, Report, ReportCell, Text, walk
+from loopbook.pipeline.export.pdf import as_export_error, support_files
+from loopbook.pipeline.export.reading import Reading
+from loopbook.pipeline.export.report import collect_anchors, level_headings, number_blocks, read, settle_links
+from loopbook.pipeline.export.tables import from_data
+from loopbook.pipeline.export.typst_engine import TypstFailed, compile_pdf
+from loopbook.pipeline.export.typst_writer import TypstWriter, literal
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """One notebook of a book.
+
+    name: "folder/notebook", as links call it. title: default its first top heading. part: chapters of the same part
+    stand together. document: what its equation anchors begin with. assets: where its relative images are.
+    """
+
+    name: str
+    notebook: Any
+    title: str = ""
+    part: str = ""
+    document: str = ""
+    assets: Path | None = None
+
+
+@dataclass(frozen=True)
+class LinkedTable:
+    """A table whose cells lead somewhere.
+
+    table: a `loopbook.display.Table` or its data. links: by (row, column), 0-based without the head, where the cell
+    leads: "notebook:double_tank/03_pole_placement#cell-7", or a URL. pages: cells shown as the number of the page
+    their link leads to.
+    """
+
+    table: Any
+    links: Mapping[tuple[int, int], str] = field(default_factory=dict)
+    pages: frozenset[tuple[int, int]] = frozenset()
+
+
+@dataclass(frozen=True)
+class Page:
+    """A chapter of the appendix. content: Markdown text, tables, or linked tables. name: as links call it."""
+
+    title: str
+    content: Sequence[Any]
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class _Bound:
+    """A chapter ready to be written. number: "3" or "B". part: the heading of a part that begins here, or ""."""
+
+    report: Report
+    number: str
+    part: str
+
+
+def export_book(
+    chapters: Sequence[Chapter],
+    *,
+    title: str,
+    subtitle: str = "",
+    lines: Sequence[str] = (),
+    appendix: Sequence[Page] = (),
+    appendix_title: str = "Appendix",
+    author: str = "loopbook",
+    language: str = "en",
+    contents_depth: int = 3,
+    strict_alt: bool = True,
+) -> bytes:
+    """One PDF/A-2a and PDF/UA-1 of all chapters. lines: inline text at the foot of the cover.
+
+    contents_depth: levels in the table of contents; parts, where there are any, are the first.
+    In the book ``notebook:NAME#ANCHOR`` leads to that place; a name or an anchor the book does not have is an error.
+    Raises ExportError; ValueError for an empty book or a name twice.
+    """
+    if not chapters:
+        raise ValueError("a book needs at least one chapter")
+    names = [chapter.name for chapter in chapters] + [_page_name(page) for page in appendix]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise ValueError(f"a book has each name once; twice here: {', '.join(twice)}")
+    parts = any(chapter.part for chapter in chapters)
+    top = 2 if parts else 1
+    bound, part = [], ""
+    for number, chapter in enumerate(chapters, start=1):
+        report = read(
+            chapter.notebook,
+            chapter.name,
+            title=chapter.title,
+            document=chapter.document,
+            language=language,
+            folder=chapter.assets,
+            strict_alt=strict_alt,
+        )
+        bound.append(_Bound(report, str(number), chapter.part if chapter.part != part else ""))
+        part = chapter.part
+    for number, page in enumerate(appendix):
+        report = _page(page, strict_alt)
+        bound.append(_Bound(report, chr(ord("A") + number), appendix_title if parts and not number else ""))
+    anchors = {entry.report.name: entry.report.anchors for entry in bound}
+    found = []
+    for entry in bound:
+        level_headings(entry.report.cells, top + 1, f"{entry.number}.")
+        number_blocks(entry.report.cells, f"{entry.number}.")
+        found += [(entry.report.name, p) for p in problems(entry.report, "typst") + _dead_links(entry.report, anchors)]
+    if found:
+        name = found[0][0]
+        raise ExportError(name, [problem for where, problem in found if where == name])
+    source, files, marks = _source(bound, anchors, top, title, subtitle, lines, author, language, contents_depth)
+    try:
+        return compile_pdf(source, files)
+    except TypstFailed as error:
+        raise _of_chapter(error, source, files, marks) from None
+
+
+def _page_name(page: Page) -> str:
+    return page.name or "appendix/" + page.title.lower().replace(" ", "_")
+
+
+def _page(page: Page, strict_alt: bool) -> Report:
+    """A page of the appendix as a report of one cell per piece of content."""
+    reading = Reading(strict_alt=strict_alt)
+    cells = []
+    for number, content in enumerate(page.content, start=1):
+        reading.cell = number
+        with reading.guard():
+            cells.append(ReportCell(number, _content(content, reading), f"cell-{number}"))
+    report = Report(_page_name(page), [Text(page.title)], "", cells)
+    collect_anchors(report, reading)
+    settle_links(report, reading)
+    if reading.problems:
+        raise ExportError(report.name, reading.problems)
+    return report
+
+
+def _content(content: Any, reading: Reading) -> list[Block]:
+    if isinstance(content, str):
+        return read_markdown(content, reading)
+    linked = content if isinstance(content, LinkedTable) else LinkedTable(content)
+    grid = from_data(linked.table if isinstance(linked.table, dict) else linked.table.data())
+    _link_cells(grid, linked)
+    return [grid]
+
+
+def _link_cells(grid: Grid, linked: LinkedTable) -> None:
+    cells = {(cell.y - 1, cell.x): cell for cell in grid.cells}
+    for place, url in linked.links.items():
+        cell = cells[place]
+        if place in linked.pages:
+            cell.children = [PageNumber(url.removeprefix("notebook:"))]
+        else:
+            cell.children = [Link(url, cell.children)]
+
+
+def _dead_links(report: Report, anchors: dict[str, set[str]]) -> list[Problem]:
+    found = []
+    for cell in report.cells:
+        for node in walk(cell):
+            target = node.target if isinstance(node, PageNumber) else ""
+            if isinstance(node, Link) and node.kind == "notebook":
+                target = node.target
+            name, _, anchor = target.partition("#")
+            if target and (name not in anchors or (anchor and anchor not in anchors[name])):
+                what = f"no place #{anchor} in {name}" if name in anchors else f"no chapter {name}"
+                found.append(Problem(cell.number, f"a link to {what} of this book"))
+    return found
+
+
+def _source(
+    bound: list[_Bound],
+    anchors: dict[str, set[str]],
+    top: int,
+    title: str,
+    subtitle: str,
+    lines: Sequence[str],
+    author: str,
+    language: str,
+    contents_depth: int,
+) -> tuple[str, dict[str, bytes], list[tuple[int, str]]]:
+    """The Typst source, its files, and the line at which each chapter begins."""
+    plain_writer = TypstWriter(chapters=anchors)
+    told = ", ".join(f"[{plain_writer.inline(read_inline(line))}]" for line in lines)
+    pieces = [
+        '#import "report.typ": *',
+        f"#show: book.with({literal(title)}, {literal(subtitle)}, ({told}{',' if told else ''}), {literal(author)}, "
+        f"{literal(language)}, {contents_depth}, {top})",
+    ]
+    files = support_files()
+    marks = []
+    roman = 0
+    for entry in bound:
+        report = entry.report
+        writer = TypstWriter(report.name, f"{report.name}#", anchors)
+        marks.append((sum(piece.count("\n") + 1 for piece in pieces) + 1, report.name))
+        if entry.part:
+            roman += 1
+            number = _roman(roman) if entry.number.isdigit() else ""
+            pieces.append(f"#part({literal(number)})[#{literal(entry.part)};]")
+        also = [writer.label(report.title_anchor)] if report.title_anchor else []
+        labels = ", ".join([f"label({literal(report.name)})", *also])
+        heading = f"#chapter({top}, {literal(entry.number)}, ({labels},))[{writer.inline(report.title)}]"
+        pieces.append(f"// cell 0\n{heading}")
+        pieces += [f"// cell {cell.number}\n{writer.report_cell(cell)}\n" for cell in report.cells if cell.blocks]
+        files |= writer.files
+    return "\n".join(pieces) + "\n", files, marks
+
+
+def _of_chapter(error: TypstFailed, source: str, files: dict[str, bytes], marks: list[tuple[int, str]]) -> ExportError:
+    """The error with the name of the chapter whose lines it lies in."""
+    lines = [d.line for d in error.diagnostics if d.line is not None]
+    name = next((name for start, name in reversed(marks) if lines and start <= lines[0]), "the book")
+    return as_export_error(error, name, source, files)
+
+
+def _roman(number: int) -> str:
+    """
+    >>> [_roman(n) for n in (1, 4, 9, 14)]
+    ['I', 'IV', 'IX', 'XIV']
+    """
+    digits = ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I"))
+    shown = ""
+    for value, letters in digits:
+        shown += letters * (number // value)
+        number %= value
+    return shown

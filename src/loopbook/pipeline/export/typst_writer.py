@@ -1,0 +1,279 @@
+"""A report's blocks as Typst source.
+
+Whatever comes from a notebook enters the source as a string literal, never as markup; mathematics comes from the
+strict converter. The functions called here are those of ``templates/loopbook_pdf/report.typ``.
+"""
+
+import hashlib
+import re
+import struct
+from dataclasses import dataclass, field
+
+from loopbook.pipeline.export.breaking import pieces
+from loopbook.pipeline.export.maths import as_text, as_typst
+from loopbook.pipeline.export.model import (
+    Anchor,
+    Block,
+    Break,
+    Bullets,
+    Cell,
+    Code,
+    Definitions,
+    Display,
+    Figure,
+    Grid,
+    Heading,
+    Inline,
+    Item,
+    Link,
+    Listing,
+    Math,
+    Note,
+    PageNumber,
+    Paragraph,
+    Picture,
+    Quote,
+    ReportCell,
+    Rule,
+    Styled,
+    Text,
+    plain,
+)
+from loopbook.pipeline.export.report import beside
+
+ROMAN_FONTS = ("DejaVu Sans", "DejaVu Serif", "DejaVu Sans Mono", "STIXGeneral", "Libertinus Serif", "cmr10", "cmmi10")
+_STYLES = {
+    "emph": "emph",
+    "strong": "strong",
+    "strike": "strike",
+    "underline": "underline",
+    "sub": "sub",
+    "super": "super",
+}
+_LONG_WORD = re.compile(r"\S{45,}")
+_FAMILY = re.compile(
+    r"(?P<key>\bfont(?:-family)?\s*:\s*)(?P<names>[^;\"}<]+)|(?P<attr>\bfont-family\s*=\s*)(?P<quote>[\"'])(?P<list>.*?)(?P=quote)"
+)
+
+
+def literal(text: str) -> str:
+    r"""A Typst string literal.
+
+    >>> print(literal('a "b" \\ #c'))
+    "a \"b\" \\ #c"
+    """
+    text = text.replace("\\", "\\\\").replace('"', '\\"').replace("\r", "").replace("\n", "\\n").replace("\t", "\\t")
+    return f'"{text}"'
+
+
+def breakable(text: str) -> str:
+    """Give words too long for a line places to break, after punctuation or each 20 characters (zero width spaces)."""
+
+    def mend(found: re.Match[str]) -> str:
+        word = found[0]
+        if re.match(r"https?://", word):
+            return re.sub(r"(?<=[/?&=_.-])(?=[^/])", "\u200b", word)
+        word = re.sub(r"(?<=[,;:/_.=()\[\]{}|-])(?=\w)", "\u200b", word)
+        return re.sub(r"[^\u200b]{20}(?=[^\u200b])", lambda m: m[0] + "\u200b", word)
+
+    return _LONG_WORD.sub(mend, text)
+
+
+@dataclass
+class TypstWriter:
+    """Writes blocks as Typst source and gathers the pictures it names.
+
+    name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
+    chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
+    leads to its own PDF beside this one.
+    """
+
+    name: str = ""
+    prefix: str = ""
+    chapters: dict[str, set[str]] | None = None
+    files: dict[str, bytes] = field(default_factory=dict)
+    cell: int = 0
+
+    def report_cell(self, cell: ReportCell) -> str:
+        """The source of one cell of the notebook, its anchor on its first block."""
+        self.cell = cell.number
+        first, *rest = (self.block(block) for block in cell.blocks)
+        if cell.anchor and isinstance(cell.blocks[0], Paragraph):
+            first = self.node(Anchor(cell.anchor)) + first
+        elif cell.anchor and not isinstance(cell.blocks[0], Heading):
+            first = f"#[{first}#{self.label(cell.anchor)}]"
+        return "\n\n".join([first, *rest])
+
+    def blocks(self, blocks: list[Block], tight: bool = False) -> str:
+        """The source of blocks, each on lines of its own."""
+        return ("\n" if tight else "\n\n").join(self.block(block) for block in blocks)
+
+    def block(self, block: Block) -> str:
+        match block:
+            case Paragraph(children):
+                return self.inline(children)
+            case Heading(level, children, anchor, number):
+                return f"#section({level}, {literal(number)}, {self.label(anchor)})[{self.inline(children)}]"
+            case Display():
+                return self.display(block)
+            case Listing(text, role, language):
+                return f"#listing({literal(role)}, {literal(_language(language))}, {literal(text)})"
+            case Bullets():
+                return self.bullets(block)
+            case Definitions(items):
+                parts = [f"terms.item([{self.inline(term)}], [{self.blocks(body)}])" for term, body in items]
+                return f"#terms({', '.join(parts)})"
+            case Quote(blocks):
+                return f"#quote(block: true)[{self.blocks(blocks)}]"
+            case Rule():
+                return "#thematic-break()"
+            case Grid():
+                return self.grid(block)
+            case Figure(picture, caption, number):
+                told = f"[{self.inline(caption)}]" if caption else "none"
+                return f"#drawing({self.picture(picture)}, {told}, {literal(number)})"
+        raise TypeError(f"no Typst form for {type(block).__name__}")
+
+    def bullets(self, block: Bullets) -> str:
+        items = ", ".join(f"[{self.item(item, block.tight)}]" for item in block.items)
+        tight = "true" if block.tight else "false"
+        if block.ordered:
+            return f"#enum(tight: {tight}, start: {block.start}, {items})"
+        return f"#list(tight: {tight}, {items})"
+
+    def item(self, item: Item, tight: bool) -> str:
+        box = "" if item.checked is None else '#task(true);#" ";' if item.checked else '#task(false);#" ";'
+        return box + self.blocks(item.blocks, tight)
+
+    def inline(self, nodes: list[Inline]) -> str:
+        return "".join(self.node(node) for node in nodes)
+
+    def node(self, node: Inline) -> str:
+        match node:
+            case Text(text):
+                return f"#{literal(breakable(text))};" if text else ""
+            case Code(text):
+                return f"#code({literal(breakable(text))});"
+            case Math(latex):
+                return f"#m({literal(as_text(latex))}, ${as_typst(latex, False)}$);"
+            case Styled(style, children):
+                return f"#{_STYLES[style]}[{self.inline(children)}];"
+            case Link():
+                return self.link(node)
+            case PageNumber(target):
+                return f"#page-of(label({literal(target)}));"
+            case Picture():
+                return f"#inline-picture({self.picture(node)});"
+            case Break():
+                return "#linebreak();"
+            case Anchor(name):
+                return f"#[#metadata(none)#{self.label(name)}];"
+            case Note(number, blocks):
+                label = self.label(f"footnote-{number}")
+                return f"#[#footnote[{self.blocks(blocks)}]#{label}];" if blocks else f"#footnote({label});"
+        raise TypeError(f"no Typst form for {type(node).__name__}")
+
+    def link(self, link: Link) -> str:
+        inside = self.inline(link.children)
+        if link.kind == "internal":
+            return f"#inner({self.label(link.target)})[{inside}];"
+        if link.kind == "notebook" and self.chapters is not None:
+            return f"#inner(label({literal(link.target)}))[{inside}];"
+        url = beside(link.target, self.name, ".pdf") if link.kind == "notebook" else link.target
+        return f"#outer({literal(url)})[{inside}];"
+
+    def label(self, anchor: str) -> str:
+        return f"label({literal(self.prefix + anchor)})"
+
+    def display(self, block: Display) -> str:
+        parts = pieces(block.latex)
+        whole = f"({literal(as_text(block.latex))}, ${as_typst(block.latex, True)}$)"
+        broken = ""
+        if len(parts) > 1:
+            parts = [parts[0], *("{}" + part for part in parts[1:])]  # an operator at the start of a line has two sides
+            broken = "".join(f"({literal(as_text(p))}, ${as_typst(p, True)}$), " for p in parts)
+        label = literal(f"({block.label})") if block.label else "none"
+        anchor = self.label(block.anchor) if block.anchor else "none"
+        return f"#formula({self.where('a formula')}, {whole}, ({broken}), {label}, {anchor})"
+
+    def grid(self, grid: Grid) -> str:
+        cells = ",\n".join(self.table_cell(cell) for cell in grid.cells)
+        caption = f"[{self.inline(grid.caption)}]" if grid.caption else "none"
+        notes = "".join(f"[{self.inline(note)}], " for note in grid.notes)
+        where = self.where(grid.number or "a table")
+        size = f"{grid.columns}, {grid.rows}, {grid.head_rows}"
+        return f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), (\n{cells},\n))"
+
+    def table_cell(self, cell: Cell) -> str:
+        """One cell; ``words``: its unbreakable pieces that may decide how narrow its column can be."""
+        optional = ""
+        if cell.colspan > 1 or cell.rowspan > 1:
+            optional += f", colspan: {cell.colspan}, rowspan: {cell.rowspan}"
+        if cell.mark:
+            optional += f", mark: {literal(cell.mark)}"
+        text = plain(cell.children)
+        if len(text) > 12 and cell.colspan == 1:
+            optional += f", words: ({self._solid(cell.children)})"
+        head = "true" if cell.head else "false"
+        body = self.inline(cell.children)
+        return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
+
+    def _solid(self, nodes: list[Inline]) -> str:
+        words = re.split(
+            r"[\s\u200b]+|(?<=[-/–])", breakable(plain([n for n in nodes if not isinstance(n, Math | Code)]))
+        )
+        longest = max(words, key=len, default="")
+        parts = [f"[#{literal(longest)};]"] if longest else []
+        for node in nodes:
+            if isinstance(node, Code):
+                word = max(re.split(r"[\s\u200b]+|(?<=[-/–])", breakable(node.text)), key=len)
+                parts.append(f"[{self.node(Code(word))}]")
+            elif isinstance(node, Math) and len(as_text(node.latex)) < 40:
+                parts.append(f"[{self.node(node)}]")
+        return "".join(f"{part}, " for part in parts)
+
+    def picture(self, picture: Picture) -> str:
+        """The arguments that name a picture: file, alternative text, width in points or none."""
+        data = with_known_fonts(picture.data) if picture.kind == "svg" else picture.data
+        file = f"picture-{hashlib.sha256(data).hexdigest()[:16]}.{picture.kind}"
+        self.files[file] = data
+        width = picture.width
+        if width is None and picture.kind == "png":
+            width = struct.unpack(">I", picture.data[16:20])[0]
+        points = "none" if width is None else f"{width * 0.75:g}pt"
+        return f"{literal(file)}, {literal(picture.alt)}, {points}"
+
+    def where(self, what: str) -> str:
+        return literal(f"{self.cell}|{what}")
+
+
+def with_known_fonts(svg: bytes) -> bytes:
+    """The drawing, with a font we have wherever it names only others: text in a font that is not there would vanish."""
+    text = svg.decode()
+
+    def known(names: str) -> bool:
+        return any(font.lower() in names.lower() for font in ROMAN_FONTS)
+
+    def stand_in(names: str) -> str:
+        if "mono" in names.lower() or "courier" in names.lower():
+            return "DejaVu Sans Mono"
+        return "Libertinus Serif" if re.search(r"times|georgia|(?<!sans-)serif", names, re.I) else "DejaVu Sans"
+
+    def mend(found: re.Match[str]) -> str:
+        names = found["names"] or found["list"]
+        if known(names) or names.strip() in ("inherit", "normal"):
+            return found[0]
+        quote = "'" if found["quote"] != "'" else ""
+        extra = f"{names.rstrip()}, {quote}{stand_in(names)}{quote}"
+        return f"{found['key']}{extra}" if found["key"] else f"{found['attr']}{found['quote']}{extra}{found['quote']}"
+
+    text = _FAMILY.sub(mend, text)
+    root = re.match(r"<(\w+:)?svg\b[^>]*>", text)
+    if root and "font-family" not in root[0]:
+        at = re.match(r"<(\w+:)?svg\b", text).end()
+        text = f'{text[:at]} font-family="DejaVu Sans"{text[at:]}'
+    return text.encode()
+
+
+def _language(name: str) -> str:
+    return {"ipython": "python", "ipython3": "python", "python3": "python", "py": "python"}.get(name, name)
