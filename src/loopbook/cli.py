@@ -110,7 +110,10 @@ def check(project: Project, document: str, place: str, form: str) -> None:
     chosen = ledger.read_ledger(project).of(document, place)
     forms = {"json": ledger.as_json, "csv": ledger.as_csv, "md": ledger.as_markdown}
     click.echo(forms[form](chosen) if form in forms else ledger.as_text(chosen, whole=bool(place)))
-    sys.exit(1 if chosen.failing else 0)
+    failed = (project.cache / "failures.txt").exists()
+    if failed:
+        click.echo("\nthe last build failed; `loopbook build` says where", err=True)
+    sys.exit(1 if failed or chosen.failing else 0)
 
 
 @main.command()

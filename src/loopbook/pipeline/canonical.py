@@ -13,7 +13,7 @@ from typing import Any
 
 INJECTED = "injected-parameters"
 _ADDRESS = re.compile(r"\b0x[0-9a-f]{8,16}\b", re.IGNORECASE)
-_CELL_FILE = re.compile(r"[^\s\"'<>]*ipykernel_\d+[/\\]\d+\.py")
+_CELL_FILE = re.compile(r"ipykernel_\d+[/\\]\d+\.py")
 _ANSI = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _TEXT = ("text/plain", "text/html", "text/markdown", "text/latex")
 
@@ -104,11 +104,23 @@ def _output(output: dict, mask) -> dict:
     return {k: v for k, v in {**output, "data": data}.items() if k != "transient"}
 
 
+def _name_cells(text: str) -> str:
+    """The temporary file of a cell, with the folders before it, becomes ``<cell>``; one pass, however long a line."""
+    pieces, end = [], 0
+    for found in _CELL_FILE.finditer(text):
+        start = found.start()
+        while start > end and text[start - 1] not in " \t\n\"'<>":
+            start -= 1
+        pieces += [text[end:start], "<cell>"]
+        end = found.end()
+    return "".join([*pieces, text[end:]])
+
+
 def _mask(root: Path):
     places = [(f"{sys.prefix}/", ""), (f"{sys.base_prefix}/", ""), (f"{root}/", ""), (str(Path.home()), "~")]
 
     def mask(text: str) -> str:
-        text = _CELL_FILE.sub("<cell>", text)
+        text = _name_cells(text)
         for place, instead in places:
             text = text.replace(place, instead)
         return _ADDRESS.sub("0x…", text)

@@ -95,9 +95,12 @@ def used_by(project: Project, source: Source, depends: dict[str, Any]) -> Prints
     return dict(sorted(names.items()))
 
 
-def of_export(source: Source, ran: str, engine: str) -> Prints:
+def of_export(source: Source, ran: str, engine: str, format: str) -> Prints:
     """What an exported report depends on. ran: the hash of the executed content."""
-    prints = {"its text": source.hash_all(), "its results": ran, "the engine": engine}
+    prints = {"its text": source.hash_all(), "its results": ran}
+    if format == "ipynb":
+        return prints
+    prints["the engine"] = engine
     for folder in EXPORTS:
         for path in _tree(HERE / folder):
             prints[f"loopbook.pipeline/{path.relative_to(HERE).as_posix()}"] = hash_file(path)

@@ -1,6 +1,7 @@
 """One notebook to build: what has to be done and why, and the doing of it."""
 
 import json
+import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -14,6 +15,7 @@ from loopbook.pipeline.project import EnvironmentProblem, Notebook, Project
 from loopbook.pipeline.source import Source
 
 Exporter = Callable[..., bytes]
+_EXPORTING = threading.Lock()  # the exporters keep state while they write
 
 
 @dataclass(frozen=True)
@@ -74,8 +76,8 @@ def plan(project: Project, notebook: Notebook, source: Source, parameters: Mappi
     because = ["--force"] if wanted.force else fingerprint.differences(stamp.run if stamp else None, now)
     exports: dict[str, list[str]] = {}
     if not because:
-        prints = fingerprint.of_export(source, stamp.results, wanted.engine)
         for format, path in outputs.items():
+            prints = fingerprint.of_export(source, stamp.results, wanted.engine, format)
             last = stamp.exports.get(str(path))
             if last is None or stamps.print_of(path) != last["file"]:
                 exports[format] = [f"{path.name} is not there" if not path.exists() else f"{path.name} was changed"]
@@ -167,7 +169,6 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
     done = Done(notebook, 0, warnings=warnings, counts=counts, records=found, ran=bool(job.run_because))
     results = fingerprint.digest([c.get("outputs") for c in content["cells"]])
     exports = {} if job.run_because else dict(job.stamp.exports)
-    export_prints = fingerprint.of_export(source, results, wanted.engine)
     todo = job.outputs if job.run_because else {f: job.outputs[f] for f in job.export_because}
     for format, path in todo.items():
         failures = _export(project, job, wanted, content, format, path)
@@ -175,7 +176,8 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
             done.failures += failures
             exports.pop(str(path), None)
         else:
-            exports[str(path)] = {"prints": export_prints, "file": stamps.print_of(path)}
+            prints_now = fingerprint.of_export(source, results, wanted.engine, format)
+            exports[str(path)] = {"prints": prints_now, "file": stamps.print_of(path)}
     if stamped:
         atomic.write(executed, dump(content))
         stamps.save_records(project, notebook, found)
@@ -221,8 +223,16 @@ def _exporter() -> Exporter:
     from loopbook.pipeline.export import export
 
     def call(content: dict, format: str, notebook: Notebook, title: str, engine: str) -> bytes:
-        node = nbformat.from_dict(content)
-        names = {"name": notebook.id, "title": title, "document": notebook.folder.replace("_", "-")}
-        return export(node, format, **names, engine=engine)
+        with _EXPORTING:
+            return export(
+                nbformat.from_dict(content),
+                format,
+                name=notebook.id,
+                title=title,
+                document=notebook.folder.replace("_", "-"),
+                engine=engine,
+                assets=notebook.path.parent,
+                strict_alt=notebook.own,
+            )
 
     return call

@@ -40,7 +40,7 @@ def judge(
     """Judge the records of the notebooks built and bring the ledger's files up to date.
 
     complete: all notebooks of the project, and all ran; only then can something be missing or gone. accept: write
-    moved rows. frozen: write nothing; any difference fails.
+    moved rows. frozen: write nothing; any difference fails. A failing check leaves its row in the file as it was.
     """
     from loopbook.pipeline import harvest, ledger_files
 
@@ -52,7 +52,9 @@ def judge(
     changes: list[ledger_files.Change] = []
     for table, name in ledger_files.FILES.items():
         path = project.reports / name
-        old, new = ledger_files.read(path), ledger_files.rows(found, table)
+        old = ledger_files.read(path)
+        new = ledger_files.rows([r for r in found if not r.fails], table)
+        new = ledger_files.keep(old, new, [r for r in found if r.fails])
         if not complete:
             new = ledger_files.merge(old, new, [n.id for n in notebooks])
         kept, changed = ledger_files.compare(table, old, new)
@@ -64,7 +66,7 @@ def judge(
             if not path.exists() or path.read_bytes() != content:
                 atomic.write(path, content)
     verdict.changes = [c.line for c in changes if c not in moved]
-    verdict.failures += [_moved(c, frozen) for c in moved if not _already(c, verdict.failures)]
+    verdict.failures += [_moved(c, frozen) for c in moved]
     how = f"{complete} {frozen}"
     remember = {"key": _key(project, notebooks, how), "failures": [asdict(f) for f in verdict.failures]}
     atomic.write(project.cache / MEMORY, json.dumps(remember, ensure_ascii=False).encode())
@@ -92,12 +94,6 @@ def _moved(change, frozen: bool) -> Failure:
     cure = "commit the file that `loopbook build` writes" if frozen else "if that is right: loopbook build --accept"
     repeat = f"loopbook build {notebook}" if notebook else ""
     return Failure(notebook, f"reports/{FILES[change.table]}: {change.line}", 0, (cure,), repeat, "ledger")
-
-
-def _already(change, failures: Sequence[Failure]) -> bool:
-    """Does a failing check already speak of this row?"""
-    start = f"{change.row['document']}, {change.row['place']}"
-    return any(f.kind == "check" and f.what.startswith(start) and change.row["id"] in f.what for f in failures)
 
 
 def _key(project: Project, notebooks: Sequence[Notebook], how: str) -> str:

@@ -109,6 +109,12 @@ def merge(old: list[Row], new: list[Row], notebooks: Iterable[str]) -> list[Row]
     return sorted([*(r for r in old if r["notebook"] not in built and _key(r) not in fresh), *new], key=_order)
 
 
+def keep(old: list[Row], new: list[Row], failing: Iterable[Found]) -> list[Row]:
+    """The new rows, and for each record that fails the row that the file has, if any."""
+    keys = {(r.document, r.id) for r in failing} - {_key(r) for r in new}
+    return sorted([*new, *(r for r in old if _key(r) in keys)], key=_order)
+
+
 def _key(row: Mapping[str, str]) -> tuple[str, str]:
     return (row["document"], row["id"])
 

@@ -5,7 +5,7 @@ from collections import Counter
 from typing import Any
 
 from loopbook.pipeline import atomic, stamps
-from loopbook.pipeline.project import Project
+from loopbook.pipeline.project import Notebook, Project, UsageError
 from loopbook.pipeline.source import read_source
 
 
@@ -31,7 +31,7 @@ def manifest(project: Project) -> list[dict[str, Any]]:
         entries.append(
             {
                 "id": notebook.id,
-                "title": stamp.title if stamp else read_source(notebook.path).title,
+                "title": stamp.title if stamp else _title(notebook),
                 "folder": notebook.folder,
                 "source": notebook.path.relative_to(project.root).as_posix(),
                 "reports": reports,
@@ -42,6 +42,13 @@ def manifest(project: Project) -> list[dict[str, Any]]:
             }
         )
     return entries
+
+
+def _title(notebook: Notebook) -> str:
+    try:
+        return read_source(notebook.path).title
+    except UsageError:
+        return notebook.id
 
 
 def write_manifest(project: Project) -> None:

@@ -93,7 +93,8 @@ def assign(source: Source, given: Mapping[str, Any] | Sequence[tuple[str, str]])
         if not name.isidentifier() or keyword.iskeyword(name):
             raise ParameterError(f"parameter {name!r} is not a name", name)
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=2, cutoff=0.5)
+            near = [k for k in known if k.casefold() == name.casefold()]
+            near = near or difflib.get_close_matches(name, known, n=2, cutoff=0.5)
             hint = f"did you mean {' or '.join(near)}?" if near else f"it has {', '.join(known) or 'none'}"
             raise ParameterError(f"{source.path.name} has no parameter {name!r}; {hint}", name)
         if name in values:
