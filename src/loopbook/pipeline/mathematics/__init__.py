@@ -6,8 +6,6 @@ Strict: what is not understood is a `MathError` with its position, never a guess
 frac(a, b)
 """
 
-from functools import lru_cache
-
 from loopbook.pipeline.mathematics import mathml, text, typst
 from loopbook.pipeline.mathematics import nodes as n
 from loopbook.pipeline.mathematics.errors import MathError
@@ -16,18 +14,16 @@ from loopbook.pipeline.mathematics.parser import parse
 __all__ = ["MathError", "extract_tag", "latex_to_mathml", "latex_to_text", "latex_to_typst"]
 
 
-@lru_cache(maxsize=512)
 def latex_to_typst(latex: str, display: bool = False) -> str:
     """Typst code that stands between ``$ … $``.
 
-    latex: mathematics without delimiters. display: whether it will be a block; Typst itself sets displays larger.
+    latex: mathematics without delimiters. display: whether it will be a block.
     A ``\\tag`` is shown at the end of its line; see `extract_tag` for numbers at the margin.
     Raises MathError.
     """
-    return typst.emit(parse(latex))
+    return typst.emit(parse(latex), display)
 
 
-@lru_cache(maxsize=512)
 def latex_to_mathml(latex: str, display: bool = False) -> str:
     """A complete ``<math>`` element in MathML Core. Raises MathError."""
     return mathml.emit(parse(latex), display)

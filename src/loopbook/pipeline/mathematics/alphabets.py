@@ -22,7 +22,7 @@ _HOLES = {
     "double": dict(zip("CHNPQRZ", "ℂℍℕℙℚℝℤ", strict=True)),
 }
 _GREEK_EXTRA = "∂ϵϑϰϕϱϖ"  # follow ω in every Greek block, in this order
-_BOLD = {"": "bold-italic", "italic": "bold-italic", "normal": "bold", "script": "bold-script"}
+_BOLD = {"italic": "bold-italic", "normal": "bold", "script": "bold-script", "roundhand": "bold-script"}
 _BOLD |= {"fraktur": "bold-fraktur", "sans": "bold-sans"}
 
 VARIANTS = frozenset(_BLOCKS)
@@ -34,6 +34,8 @@ def combine(outer: str, inner: str) -> str:
     >>> combine("boldsymbol", ""), combine("script", "boldsymbol"), combine("bold", "sans")
     ('boldsymbol', 'bold-script', 'sans')
     """
+    if not outer:
+        return inner
     if outer == "boldsymbol":
         return "boldsymbol" if inner in ("", "italic", "boldsymbol") else _BOLD.get(inner, inner)
     if inner == "boldsymbol":
@@ -47,6 +49,9 @@ def styled(char: str, variant: str) -> str | None:
     >>> styled("A", "bold"), styled("R", "double"), styled("α", "bold"), styled("1", "fraktur")
     ('𝐀', 'ℝ', '𝛂', None)
     """
+    if variant == "roundhand":
+        script = styled(char, "script")
+        return script and script + "\ufe01"
     if variant == "boldsymbol":
         variant = "bold" if "Α" <= char <= "Ω" else "bold-italic"
     if variant not in _BLOCKS:

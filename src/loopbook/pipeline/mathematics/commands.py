@@ -109,6 +109,12 @@ def _big(p: "Parser", token: Token) -> n.Node:
     return n.Big(char, symbols.BIG[size], cls)
 
 
+def _wide_relation(p: "Parser", token: Token) -> n.Node:
+    r"""amsmath's \implies, \impliedby and \iff: a long arrow with a space on both sides."""
+    thick = n.Space(symbols.SPACES[";"])
+    return n.Classed([thick, n.Symbol(symbols.WIDE_RELATIONS[token.text], "rel"), thick], "rel")
+
+
 def _function(p: "Parser", token: Token) -> n.Node:
     limits = token.text in symbols.LIMIT_FUNCTIONS
     words = symbols.LIMIT_FUNCTIONS.get(token.text, token.text).split()
@@ -261,6 +267,7 @@ COMMANDS: dict[str, Handler] = {
     **dict.fromkeys(("operatorname", "operatornamewithlimits"), _operator),
     **dict.fromkeys(("varlimsup", "varliminf"), _limit_variant),
     **dict.fromkeys(("bmod", "mod", "pmod", "pod"), _mod),
+    **dict.fromkeys(symbols.WIDE_RELATIONS, _wide_relation),
     "not": _not,
     **{name: lambda p, token: n.Space(symbols.SPACES[token.text]) for name in symbols.SPACES},
     **dict.fromkeys(("hspace", "mspace", "kern", "mkern", "hskip", "mskip"), _space),

@@ -185,7 +185,7 @@ def _grid(p, token, name, layout, align, rows, vlines, hlines, limit) -> n.Node:
         if layout.aligned:
             row.cells = [[n.Group([]), *c] if i % 2 else c for i, c in enumerate(row.cells)]
         if name.startswith("multline") and number:
-            row.cells[0].insert(0, n.Space(2.0))
+            row.cells[0] = [n.Space(2.0), n.Group([]), *row.cells[0]]
     align = (align * max(1, width))[:width] if len(align) < width else align[:width]
     return n.Grid(
         rows=rows,

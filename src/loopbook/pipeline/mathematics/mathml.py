@@ -56,9 +56,13 @@ def _mo(char: str, cls: str, spaces: tuple[float, float], stretchy: bool = False
     if form == "infix":
         default = _DICTIONARY.get(char)
     else:
-        default = (0.0, 0.0) if char in _STRETCHY or char in "+−±∓" else None
+        default = (0.0, 0.0) if form and (char in _STRETCHY or char in "+−±∓") else None
     space = "" if spaces == default else f' lspace="{_em(spaces[0])}" rspace="{_em(spaces[1])}"'
-    stretch = ' stretchy="true" symmetric="true"' if stretchy else ' stretchy="false"' if _may_stretch(char) else ""
+    stretch = ""
+    if stretchy:
+        stretch = ' stretchy="true" symmetric="true"'
+    elif _may_stretch(char) and "stretchy" not in extra:
+        stretch = ' stretchy="false"'
     shown_form = f' form="{form}"' if form else ""
     return f"<mo{shown_form}{space}{stretch}{extra}>{escape(char)}</mo>"
 
@@ -127,7 +131,7 @@ def _is_operator(node: n.Node) -> bool:
 
 
 def _is_identifier(node: n.Symbol) -> bool:
-    return node.upright or (node.cls == "ord" and (node.char.isalpha() or node.char in _IDENTIFIERS))
+    return node.upright or (node.cls == "ord" and (node.char[0].isalpha() or node.char in _IDENTIFIERS))
 
 
 def _operator_text(node: n.Operator) -> str | None:
@@ -179,7 +183,7 @@ def _node(node: n.Node, cls: str, script: bool, spaces: tuple[float, float] = (0
             core = _node(base[0], cls, script, spaces) if len(base) == 1 else _row(base, script)
             return _around(core, node.under, node.over)
         case n.Arrow():
-            return _around(_mo(node.char, "rel", spaces, stretchy=True), node.under, node.over, padded=True)
+            return _around(_mo(node.char, "rel", spaces, extra=' stretchy="true"'), node.under, node.over, padded=True)
         case n.Operator():
             text = _operator_text(node)
             if text is not None:
@@ -217,7 +221,7 @@ def _identifier(text: str, upright: bool) -> str:
 
 def _symbol(node: n.Symbol, cls: str, spaces: tuple[float, float]) -> str:
     if _is_identifier(node):
-        return _identifier(node.char, node.upright or not (node.char.isalpha() or node.char == "∂"))
+        return _identifier(node.char, node.upright or not (node.char[0].isalpha() or node.char == "∂"))
     return _mo(node.char, cls, spaces, extra=' largeop="true"' + _MOVABLE[node.limits] if node.large else "")
 
 
@@ -230,16 +234,16 @@ def _fenced(left: str, body: str, right: str) -> str:
 def _around(core: str, under: list[n.Node] | None, over: list[n.Node] | None, padded: bool = False) -> str:
     """A core with small lists under and over it."""
 
-    def small(items: list[n.Node]) -> str:
+    def small(items: list[n.Node], towards: str) -> str:
         row = _row(items, script=True)
-        return f'<mpadded width="+1em" lspace="0.5em">{row}</mpadded>' if padded else row
+        around = _mspace(0.5) if padded else ""
+        return f'<mrow style="padding-{towards}:0.1em">{around}{row}{around}</mrow>'
 
     if under and over:
-        return f"<munderover>{core}{small(under)}{small(over)}</munderover>"
-    if under or over:
-        tag = "munder" if under else "mover"
-        return f"<{tag}>{core}{small(under or over or [])}</{tag}>"
-    return core
+        return f"<munderover>{core}{small(under, 'top')}{small(over, 'bottom')}</munderover>"
+    if under:
+        return f"<munder>{core}{small(under, 'top')}</munder>"
+    return f"<mover>{core}{small(over, 'bottom')}</mover>" if over else core
 
 
 def _brace(node: n.Brace, script: bool) -> str:
@@ -270,7 +274,7 @@ def _scripts(node: n.Scripts, cls: str, script: bool, spaces: tuple[float, float
     sub = None if node.sub is None else _row(node.sub, True)
     sup = None if node.sup is None else _row(node.sup, True)
     if node.primes:
-        primes = f'<mo lspace="0" rspace="0">{"′" * node.primes}</mo>'
+        primes = f'<mo lspace="0" rspace="0">{symbols.PRIMES.get(node.primes, "′" * node.primes)}</mo>'
         if stacked:
             core = f"<msup>{core}{primes}</msup>"
         else:
@@ -301,10 +305,16 @@ def _grid(node: n.Grid) -> str:
         cells = "".join(_cell(node, i, j, row) for j in range(len(row.cells)))
         if tagged:
             tag = f"<mtext>{_hard_spaces(row.tag.text)}</mtext>" if row.tag else ""
-            cells += f'<mtd style="text-align:right;padding:{_em(node.row_gap / 2)} 0 0 2em">{tag}</mtd>'
+            cells += f'<mtd style="{_aligned("right")};padding:{_em(node.row_gap / 2)} 0 0 2em">{tag}</mtd>'
         rows.append(f"<mtr>{cells}</mtr>")
-    table = f'<mtable displaystyle="{"true" if node.style == "display" else "false"}">{"".join(rows)}</mtable>'
+    large = "true" if node.style == "display" else "false"
+    table = f'<mtable displaystyle="{large}" style="border-collapse:collapse">{"".join(rows)}</mtable>'
     return f"<mstyle {_STYLE['script']}>{table}</mstyle>" if node.style == "script" else table
+
+
+def _aligned(align: str) -> str:
+    """Chromium aligns mathematics only with its own keywords; the others ignore them."""
+    return f"text-align:{align};text-align:-webkit-{align}"
 
 
 def _cell(node: n.Grid, i: int, j: int, row: n.Row) -> str:
@@ -315,7 +325,7 @@ def _cell(node: n.Grid, i: int, j: int, row: n.Row) -> str:
         left = 2.0
     right = 0.0 if j == len(row.cells) - 1 and not node.vlines else node.gap / 2
     above = node.row_gap / 2
-    style = f"text-align:{align};padding:{_em(above)} {_em(right)} {_em(above + max(0.0, row.space))} {_em(left)}"
+    style = f"{_aligned(align)};padding:{_em(above)} {_em(right)} {_em(above + max(0.0, row.space))} {_em(left)}"
     borders = [
         ("left", j in node.vlines),
         ("right", j + 1 == len(row.cells) and j + 1 in node.vlines),

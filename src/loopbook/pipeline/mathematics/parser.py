@@ -145,8 +145,8 @@ class Parser:
         """One atom with its scripts, or None for a command that shows nothing."""
         token = self.lexer.peek()
         base = n.Group([]) if token.is_char("^_'") else self.atom(self.lexer.next())
-        if base is None:
-            return None
+        if base is None or isinstance(base, n.Space | n.StyleSwitch):
+            return base
         found = n.Scripts(base)
         while True:
             token = self.lexer.peek()

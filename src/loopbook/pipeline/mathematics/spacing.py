@@ -1,12 +1,16 @@
 """TeX's spaces between atoms (TeXbook, chapter 18), worked out once for all emitters.
 
+Two deliberate differences: a growing parenthesis counts as opening and closing, not as TeX's inner, because f(x) needs
+no space; and a brace below counts as ordinary, not as an operator, because a sign beside it is binary.
+
 Both emitters know the class of every atom in its context, so a minus is unary or binary for the same reason in the PDF
-and on the screen. A growing parenthesis counts as opening and closing, not as TeX's inner: f(x) needs no space.
+and on the screen.
 """
 
 from loopbook.pipeline.mathematics import nodes as n
 
 THIN, MEDIUM, THICK = 3 / 18, 4 / 18, 5 / 18
+BARS = ("|", "‖")
 _NEVER_IN_SCRIPTS = {MEDIUM, THICK}
 
 
@@ -23,16 +27,16 @@ def edges(node: n.Node) -> tuple[str, str] | None:
             return "rel", "rel"
         case n.Middle():
             return "close", "open"
-        case n.Fenced():
-            return "open" if node.left else "ord", "close" if node.right else "ord"
-        case n.Grid():
-            return "open" if node.left else "ord", "close" if node.right else "ord"
+        case n.Fenced() | n.Grid():
+            return _edge(node.left, "open"), _edge(node.right, "close")
         case n.Scripts():
             return edges(node.base) or ("ord", "ord")
-        case n.Brace():
-            return "op", "op"
         case _:
             return "ord", "ord"
+
+
+def _edge(delimiter: str, cls: str) -> str:
+    return "ord" if not delimiter or delimiter in BARS else cls
 
 
 def classes(items: list[n.Node]) -> list[tuple[str, str] | None]:

@@ -82,7 +82,7 @@ RELATIONS = _pairs(
 ARROWS = _pairs(
     """
     to → rightarrow → gets ← leftarrow ← uparrow ↑ downarrow ↓ updownarrow ↕ leftrightarrow ↔ Rightarrow ⇒ Leftarrow ⇐
-    Uparrow ⇑ Downarrow ⇓ Updownarrow ⇕ Leftrightarrow ⇔ iff ⟺ implies ⟹ impliedby ⟸ longrightarrow ⟶ longleftarrow ⟵
+    Uparrow ⇑ Downarrow ⇓ Updownarrow ⇕ Leftrightarrow ⇔ longrightarrow ⟶ longleftarrow ⟵
     longleftrightarrow ⟷ Longrightarrow ⟹ Longleftarrow ⟸ Longleftrightarrow ⟺ mapsto ↦ longmapsto ⟼ hookrightarrow ↪
     hookleftarrow ↩ rightharpoonup ⇀ rightharpoondown ⇁ leftharpoonup ↼ leftharpoondown ↽ rightleftharpoons ⇌
     leftrightharpoons ⇋ nearrow ↗ searrow ↘ swarrow ↙ nwarrow ↖ rightsquigarrow ⇝ leadsto ⇝ leftrightsquigarrow ↭
@@ -93,6 +93,8 @@ ARROWS = _pairs(
     leftarrowtail ↢ looparrowright ↬ looparrowleft ↫ multimap ⊸ Rrightarrow ⇛ Lleftarrow ⇚ Lsh ↰ Rsh ↱
     """
 )
+
+WIDE_RELATIONS = _pairs("implies ⟹ impliedby ⟸ iff ⟺")
 
 OPENING = _pairs(
     """
@@ -175,6 +177,8 @@ SPACES = {
 # Units of \hspace, \kern and \mspace, in em of a 10 pt font.
 UNITS = {"em": 1.0, "ex": 0.43, "mu": 1 / 18, "pt": 0.1, "mm": 0.28453, "cm": 2.8453, "in": 7.227, "pc": 1.2}
 
+PRIMES = {1: "′", 2: "″", 3: "‴", 4: "⁗"}
+
 # name: (combining character for Typst, spacing character for MathML)
 ACCENTS = {
     "hat": ("\u0302", "^"),
@@ -232,7 +236,7 @@ FONTS = {
     "mathit": "italic",
     "mathnormal": "",
     "mathcal": "script",
-    "mathscr": "script",
+    "mathscr": "roundhand",
     "mathbb": "double",
     "mathfrak": "fraktur",
     "mathsf": "sans",

@@ -1,18 +1,25 @@
 """The tree as one line of readable text, for those who hear a formula instead of seeing it."""
 
+import unicodedata
+
 from loopbook.pipeline.mathematics import nodes as n
+from loopbook.pipeline.mathematics import symbols
 from loopbook.pipeline.mathematics.spacing import classes, gap
 
+_ALPHABETS = 0x1D400  # from here on: letters of the mathematical alphabets, read as plain letters
+_READABLE = {0xFE01: None, ord("ı"): "i", ord("ȷ"): "j"}
 _ACCENT = {"vec": "vector", "dot": "dot", "ddot": "double dot", "overrightarrow": "vector"}
 
 
 def emit(items: list[n.Node]) -> str:
-    return " ".join(_list(items).split())
+    plain = (unicodedata.normalize("NFKC", c) if ord(c) >= _ALPHABETS else c for c in _list(items))
+    return " ".join("".join(plain).translate(_READABLE).replace("^∘", "°").split())
 
 
 def _list(items: list[n.Node]) -> str:
     out = ""
     before: str | None = None
+    last: n.Node | None = None
     for item, pair in zip(items, classes(items), strict=True):
         if isinstance(item, n.StyleSwitch):
             continue
@@ -20,11 +27,19 @@ def _list(items: list[n.Node]) -> str:
             out += " " if item.em > 0 else ""
             continue
         text = _node(item)
-        if before and pair and (gap(before, pair[0]) or (out[-1:].isalnum() and len(text) > 1 and text[0].isalnum())):
+        if before and pair and (gap(before, pair[0]) or _would_merge(last, out, text)):
             out += " "
         out += text
-        before = pair[1] if pair else before
+        before, last = (pair[1], item) if pair else (before, last)
     return out
+
+
+def _would_merge(last: n.Node | None, out: str, text: str) -> bool:
+    """Whether two neighbours would be read as one word, or the second as part of the first one's script."""
+    base = last.base if isinstance(last, n.Scripts) else last
+    if isinstance(base, n.Symbol) and base.large:
+        return True
+    return out[-1:].isalnum() and text[:1].isalnum() and (base is not last or len(text) > 1)
 
 
 def _node(node: n.Node) -> str:
@@ -36,17 +51,22 @@ def _node(node: n.Node) -> str:
         case n.Group() | n.Classed():
             return _list(node.items)
         case n.Scripts():
-            base = _node(node.base) + "′" * node.primes
+            base = _node(node.base) + symbols.PRIMES.get(node.primes, "′" * node.primes)
             sub = f"_{_bracketed(node.sub)}" if node.sub is not None else ""
             sup = f"^{_bracketed(node.sup)}" if node.sup is not None else ""
             return base + sub + sup
         case n.Fraction():
-            return f"{_bracketed(node.num)}{'/' if node.line else ' over '}{_bracketed(node.den)}"
+            num = _list(node.num).strip()
+            num = num if num.isalnum() else _bracketed(node.num)
+            return f"{num}{'/' if node.line else ' over '}{_bracketed(node.den)}"
         case n.Root():
             index = f"root {_list(node.index)} of " if node.index else "√"
             return f"{index}{_bracketed(node.body)}"
         case n.Fenced():
-            return f"{node.left}{_list(node.items).strip()}{node.right}"
+            body = _list(node.items).strip()
+            if len(node.items) == 1 and isinstance(node.items[0], n.Grid) and body[:1] == "[":
+                body = body[1:-1]
+            return f"{node.left}{body}{node.right}"
         case n.Middle() | n.Big():
             return node.char
         case n.Accent():
@@ -77,13 +97,21 @@ def _node(node: n.Node) -> str:
 def _bracketed(items: list[n.Node]) -> str:
     text = _list(items).strip()
     whole = text[:1] == "(" and text[-1:] == ")" and "(" not in text[1:-1] and ")" not in text[1:-1]
-    return text if len(text) == 1 or text.isalnum() or whole else f"({text})"
+    return text if whole or len(text) == 1 or (len(items) == 1 and _is_atom(items[0])) else f"({text})"
+
+
+def _is_atom(node: n.Node) -> bool:
+    """Whether a node needs no parentheses as a denominator or script."""
+    if isinstance(node, n.Scripts):
+        short = all(len(_list(part)) == 1 for part in (node.sub, node.sup) if part is not None)
+        return _is_atom(node.base) and short and (node.sub is None or node.sup is None)
+    return isinstance(node, n.Symbol | n.Number | n.Word | n.Text)
 
 
 def _grid(node: n.Grid) -> str:
     rows = []
     for row in node.rows:
         separator = " " if node.aligned else ", "
-        text = separator.join(_list(cell).strip() for cell in row.cells)
+        text = separator.join(_list(cell).strip(" ,") for cell in row.cells)
         rows.append(f"{text}  {row.tag.text}" if row.tag else text)
     return f"{node.left or ('' if node.right else '[')}{'; '.join(rows)}{node.right or ('' if node.left else ']')}"

@@ -6,8 +6,8 @@ explicit arguments, and a class is written out wherever Typst could see another 
 """
 
 from loopbook.pipeline.mathematics import nodes as n
-from loopbook.pipeline.mathematics import symbols
-from loopbook.pipeline.mathematics.spacing import classes, gap
+from loopbook.pipeline.mathematics import symbols, text
+from loopbook.pipeline.mathematics.spacing import BARS, THIN, classes, gap
 
 _CLASS = {
     "ord": "normal",
@@ -40,9 +40,12 @@ _CANCEL = {"cancel": "", "bcancel": ", inverted: #true", "xcancel": ", cross: #t
 _VARIANT = {"bold": "bold", "italic": "italic", "mono": "mono", "sans": "sans"}
 
 
-def emit(items: list[n.Node]) -> str:
+_INSIDE_FRACTION = {"display": "text", "text": "script", "script": "script", "sscript": "script"}
+
+
+def emit(items: list[n.Node], display: bool = False) -> str:
     """Typst code for a horizontal list."""
-    return _list(items)
+    return _list(items, "display" if display else "text")
 
 
 def string(text: str) -> str:
@@ -78,21 +81,19 @@ def _space(em: float) -> str:
 
 def _char(char: str) -> str:
     """One character that means itself and opens, closes or starts nothing."""
-    if char in symbols.DELIMITERS or (char.isascii() and not char.isalnum() and char != "+"):
-        return "\\" + char
-    return char
+    return char if char.isalnum() else "\\" + char
 
 
 def _wrap(content: str, cls: str) -> str:
     return f'class("{_CLASS[cls]}", {content})'
 
 
-def _list(items: list[n.Node], script: bool = False) -> str:
+def _list(items: list[n.Node], style: str) -> str:
     """A horizontal list as one argument; never empty, because Typst refuses empty arguments."""
-    return _from(0, items, classes(items), None, script) or '""'
+    return _from(0, items, classes(items), None, style) or '""'
 
 
-def _from(start: int, items: list[n.Node], found: list, before: str | None, script: bool) -> str:
+def _from(start: int, items: list[n.Node], found: list, before: str | None, style: str) -> str:
     """The list from a place on. Explicit spaces include TeX's own space there, which Typst drops."""
     parts: list[str] = []
     space: float | None = None
@@ -102,19 +103,33 @@ def _from(start: int, items: list[n.Node], found: list, before: str | None, scri
             space = item.em + (space or 0.0)
             continue
         if space is not None:
-            parts.append(_space(space + (gap(before, pair[0], script) if before and pair else 0.0)))
+            parts.append(_space(space + (gap(before, pair[0], "script" in style) if before and pair else 0.0)))
             space = None
         if isinstance(item, n.StyleSwitch):
-            rest = _from(i + 1, items, found, before, script or "script" in item.style) or '""'
+            rest = _from(i + 1, items, found, before, item.style) or '""'
             return join([*parts, f"{_STYLE[item.style]}({rest})"])
-        parts.append(_node(item, pair[0] if pair else "ord", script))
+        elif before == "op" and pair and _opens_with_bar(item):
+            parts.append(_space(THIN))
+        parts.append(_node(item, pair[0] if pair else "ord", style))
         before = pair[1] if pair else before
     if space is not None:
         parts.append(_space(space))
     return join(parts)
 
 
-def _node(node: n.Node, cls: str, script: bool) -> str:
+def _opens_with_bar(node: n.Node) -> bool:
+    """A growing bar is an opening delimiter for Typst and an ordinary character in `spacing`."""
+    base = node.base if isinstance(node, n.Scripts) else node
+    return isinstance(base, n.Fenced | n.Grid) and base.left in BARS
+
+
+def _equation(items: list[n.Node], style: str) -> str:
+    """A formula inside a box, which is text; tagged PDF wants a text alternative for it too."""
+    alternative = string(text.emit(items) or "formula")
+    return f"#math.equation(alt: {alternative}, ${_STYLE[style]}({_list(items, style)})$)"
+
+
+def _node(node: n.Node, cls: str, style: str) -> str:
     """One node. cls: its class in its context, which for a unary minus is not its own."""
     match node:
         case n.Symbol():
@@ -127,20 +142,20 @@ def _node(node: n.Node, cls: str, script: bool) -> str:
             text = string(node.text)
             return f"{node.variant}({text})" if node.variant != "normal" else text
         case n.Group():
-            return _group(node.items, script)
+            return _group(node.items, style)
         case n.Classed():
             if cls == "op":
-                return f"op({_list(node.items, script)}, limits: #true)"
-            return _wrap(_list(node.items, script), cls)
+                return f"op({_list(node.items, style)}, limits: #true)"
+            return _wrap(_list(node.items, style), cls)
         case n.Scripts():
-            return _scripts(node, cls, script)
+            return _scripts(node, cls, style)
         case n.Fraction():
-            return _fraction(node, script)
+            return _fraction(node, style)
         case n.Root():
-            body = _list(node.body, script)
-            return f"sqrt({body})" if node.index is None else f"root({_list(node.index, True)}, {body})"
+            body = _list(node.body, style)
+            return f"sqrt({body})" if node.index is None else f"root({_list(node.index, 'script')}, {body})"
         case n.Fenced():
-            return _fenced(node, script)
+            return _fenced(node, style)
         case n.Middle():
             return _wrap(f"mid({_char(node.char)})", "ord") if node.char else '""'
         case n.Big():
@@ -148,36 +163,38 @@ def _node(node: n.Node, cls: str, script: bool) -> str:
         case n.Accent():
             size = "" if node.wide else ", size: #0%"
             mark = f"\\u{{{ord(symbols.ACCENTS[node.name][0]):x}}}"
-            return f'accent({_list(node.body, script)}, #"{mark}"{size})'
+            return f'accent({_list(node.body, style)}, #"{mark}"{size})'
         case n.Line():
-            return f"{'overline' if node.over else 'underline'}({_list(node.body, script)})"
+            return f"{'overline' if node.over else 'underline'}({_list(node.body, style)})"
         case n.Brace():
-            return f"{_BRACES[node.char]}({_list(node.body, script)})"
+            return f"{_BRACES[node.char]}({_list(node.body, style)})"
         case n.Stack():
-            labels = [f"{side}: {_list(part, True)}" for side, part in (("t", node.over), ("b", node.under)) if part]
-            return _wrap(", ".join([f"attach(limits({_list(node.base, script)})", *labels]) + ")", cls)
+            return _labelled(_list(node.base, style), node, cls)
         case n.Arrow():
-            labels = [f"{side}: {_list(part, True)}" for side, part in (("t", node.over), ("b", node.under)) if part]
-            arrow = f"stretch({node.char}, size: #(100% + 1em))"
-            return _wrap(", ".join([f"attach(limits({arrow})", *labels]) + ")", cls)
+            return _labelled(f"stretch({node.char}, size: #(100% + 1em))", node, cls)
         case n.Operator():
-            return f"op({_list(node.name, script)}, limits: #{'true' if node.limits else 'false'})"
+            return f"op({_list(node.name, style)}, limits: #{'true' if node.limits else 'false'})"
         case n.Grid():
-            return _grid(node, script)
+            return _grid(node, style)
         case n.Phantom():
-            hidden = f"std.hide({_list(node.body, script)})"
             if node.width and node.height:
-                return hidden
-            return f"std.box({'height' if node.width else 'width'}: #0pt, {hidden})"
+                return f"std.hide({_list(node.body, style)})"
+            return f"std.box({'height' if node.width else 'width'}: #0pt, std.hide({_equation(node.body, style)}))"
         case n.Boxed():
-            return f"std.box(stroke: #0.05em, inset: #0.3em, {_list(node.body, script)})"
+            return f"std.box(stroke: #0.05em, inset: #0.3em, {_equation(node.body, 'display')})"
         case n.Cancel():
-            return f"cancel({_list(node.body, script)}{_CANCEL[node.kind]})"
+            return f"cancel({_list(node.body, style)}{_CANCEL[node.kind]})"
         case n.Colored():
-            return f'std.text(fill: #rgb("{node.color}"), {_list(node.body, script)})'
+            return f'std.text(fill: #rgb("{node.color}"), {_list(node.body, style)})'
         case n.TagNode():
             return _space(2.0) + string(node.tag.text)
     raise TypeError(f"no Typst form for {type(node).__name__}")
+
+
+def _labelled(base: str, node: n.Stack | n.Arrow, cls: str) -> str:
+    """A base with small lists above and below it."""
+    slots = [f"{side}: {_list(part, 'script')}" for side, part in (("t", node.over), ("b", node.under)) if part]
+    return _wrap(f"attach(limits({base}), {', '.join(slots)})" if slots else base, cls)
 
 
 def _symbol(node: n.Symbol, cls: str) -> str:
@@ -185,33 +202,33 @@ def _symbol(node: n.Symbol, cls: str) -> str:
         return node.char
     if node.upright:
         return string(node.char)
-    if cls == "ord" and node.char.isalpha():
+    if cls == "ord" and node.char[0].isalpha():
         return node.char
     char = _char(node.char)
     return char if node.char in _NATURAL.get(cls, ()) else _wrap(char, cls)
 
 
-def _group(items: list[n.Node], script: bool) -> str:
+def _group(items: list[n.Node], style: str) -> str:
     """A group shows its list; at its edges it is an ordinary atom for its neighbours."""
-    body = _list(items, script)
+    body = _list(items, style)
     found = [pair for pair in classes(items) if pair]
     if found and (found[0][0], found[-1][1]) != ("ord", "ord"):
         return _wrap(body, "ord")
     return body
 
 
-def _scripts(node: n.Scripts, cls: str, script: bool) -> str:
+def _scripts(node: n.Scripts, cls: str, style: str) -> str:
     """Scripts beside the base (tr, br) or, for operators with limits, above and below it (t, b)."""
     base = node.base
-    sub = None if node.sub is None else _list(node.sub, True)
-    sup = None if node.sup is None else _list(node.sup, True)
+    sub = None if node.sub is None else _list(node.sub, "script")
+    sup = None if node.sup is None else _list(node.sup, "script")
     if isinstance(base, n.Brace):
         above = base.char in "⏞⎴⏜"
         label = sup if above else sub
-        body = f"{_BRACES[base.char]}({_list(base.body, script)}{', ' + label if label else ''})"
+        body = f"{_BRACES[base.char]}({_list(base.body, style)}{', ' + label if label else ''})"
         rest = sub if above else sup
         return f"attach(limits({body}), {'b' if above else 't'}: {rest})" if rest else body
-    body = _node(base, cls, script)
+    body = _node(base, cls, style)
     limits = node.limits
     if limits is None and _moves_limits(base):
         top, bottom = "t", "b"
@@ -223,7 +240,7 @@ def _scripts(node: n.Scripts, cls: str, script: bool) -> str:
             body = f"scripts({body})"
     slots = []
     if node.primes:
-        primes = "′" * node.primes
+        primes = symbols.PRIMES.get(node.primes, "′" * node.primes)
         if top == "t" or sup is None:
             slots.append(f"tr: {primes}")
         else:
@@ -245,20 +262,26 @@ def _moves_limits(base: n.Node) -> bool:
             return False
 
 
-def _fraction(node: n.Fraction, script: bool) -> str:
-    num, den = _list(node.num, script), _list(node.den, script)
+def _fraction(node: n.Fraction, style: str) -> str:
+    inner = _INSIDE_FRACTION[node.style or style]
+    num, den = _list(node.num, inner), _list(node.den, inner)
     body = f"frac({num}, {den})" if node.line else f"mat(delim: #none, row-gap: #0.2em, {num}; {den})"
     return f"{_STYLE[node.style]}({body})" if node.style else body
 
 
-def _fenced(node: n.Fenced, script: bool) -> str:
+def _fenced(node: n.Fenced, style: str) -> str:
     """An invisible delimiter is an empty text, so that `lr` does not stretch what stands at the edge instead."""
     if len(node.items) == 1 and isinstance(node.items[0], n.Fraction) and (node.left, node.right) == ("(", ")"):
-        inner = node.items[0]
-        if not inner.line:
-            body = f"binom({_list(inner.num, script)}, {_list(inner.den, script)})"
-            return f"{_STYLE[inner.style]}({body})" if inner.style else body
-    return f"lr({_delimiter(node.left, 'open')}{_list(node.items, script)}{_delimiter(node.right, 'close')})"
+        over = node.items[0]
+        if not over.line:
+            inner = _INSIDE_FRACTION[over.style or style]
+            body = f"binom({_list(over.num, inner)}, {_list(over.den, inner)})"
+            return f"{_STYLE[over.style]}({body})" if over.style else body
+    return _between(node.left, _list(node.items, style), node.right)
+
+
+def _between(left: str, body: str, right: str) -> str:
+    return f"lr({join([_delimiter(left, 'open'), body, _delimiter(right, 'close')])})"
 
 
 def _delimiter(char: str, cls: str) -> str:
@@ -267,7 +290,7 @@ def _delimiter(char: str, cls: str) -> str:
     return _char(char) if char in _NATURAL[cls] else _wrap(_char(char), cls)
 
 
-def _grid(node: n.Grid, script: bool) -> str:
+def _grid(node: n.Grid, style: str) -> str:
     """A `mat` without delimiters inside `lr`; tags stand in a column of their own."""
     mixed = len(set(node.align)) > 1
     align = {"l": "left", "c": "center", "r": "right"}[node.align[0] if node.align and not mixed else "c"]
@@ -298,12 +321,12 @@ def _grid(node: n.Grid, script: bool) -> str:
     ]
     body = f"mat({', '.join(options)}, {'; '.join(rows) or chr(34) * 2})"
     if node.left or node.right:
-        return f"lr({_delimiter(node.left, 'open')}{body}{_delimiter(node.right, 'close')})"
+        return _between(node.left, body, node.right)
     return body
 
 
 def _cell(items: list[n.Node], align: str, style: str, spaced: bool) -> str:
-    body = f"{_STYLE[style]}({_list(items, style == 'script')})" if items else '""'
+    body = f"{_STYLE[style]}({_list(items, style)})" if items else '""'
     if spaced:
         body = _space(2.0) + body
     return {"l": "&" + body, "r": body + "&"}.get(align, body)
