@@ -24,11 +24,11 @@ def measurement(steps: int) -> np.ndarray:
 
 def _loopbook_step(y: list[float]) -> list[float]:
     step = Pid(SETTINGS).step
-    return [step(0.5, value) for value in y]
+    return [step(value, 0.5) for value in y]
 
 
 def _loopbook_run(y: list[float]) -> np.ndarray:
-    return Pid(SETTINGS).run(0.5, y, np.empty(len(y)))
+    return Pid(SETTINGS).run(y, 0.5, np.empty(len(y)))
 
 
 def _simple_pid(y: list[float]) -> list[float]:

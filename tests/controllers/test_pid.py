@@ -47,11 +47,11 @@ def test_equal_to_figures_4_9_to_4_13(setting, start, signals):
     pid = Pid(setting, x=p24 * start)
     programs = {figure: ProgramController(figure, setting, **state) for figure, state in states.items()}
     for k, (y_sp, y) in enumerate(signals):
-        u = pid.step(y_sp, y)
+        u = pid.step(y, y_sp)
         for figure, program in programs.items():
             if figure == "shortest":  # it computes w with the set-point of the sample before
                 program.states["w"] = pid.settings.K * pid.settings.b * y_sp + program.states["x"] + program.states["I"]
-            assert program.step(y_sp, y) == u, f"figure {figure} departs at sample {k}"
+            assert program.step(y, y_sp) == u, f"figure {figure} departs at sample {k}"
             assert program.v == pid.v, f"figure {figure}"
             assert program.states["I"] == pid.I, f"figure {figure}"
         assert isinstance(u, F)
@@ -68,16 +68,16 @@ def test_the_fast_path_is_the_same_controller(setting, signals, rule, rate):
     setting = setting.changed(anti_windup=rule, rate=rate)
     slow, fast = Pid(setting), Pid(setting)
     y_sp, y = zip(*signals, strict=True)
-    assert fast.run(y_sp, y) == [slow.step(*pair) for pair in signals]
+    assert fast.run(y, y_sp) == [slow.step(b, a) for a, b in signals]
     assert (fast.I, fast.x, fast.u, fast.v) == (slow.I, slow.x, slow.u, slow.v)
-    assert fast.step(F(1), F(2)) == slow.step(F(1), F(2))
+    assert fast.step(F(2), F(1)) == slow.step(F(2), F(1))
 
 
 @pytest.mark.parametrize("rule", ANTI_WINDUP)
 def test_without_limits_every_rule_is_the_same(rule):
     free = {"K": 2.0, "Ti": 3.0, "Td": 1.0, "Tf": 0.2, "h": 0.5}
     y = np.sin(np.arange(50) * 0.3)
-    assert np.array_equal(Pid(PidSettings(**free)).run(1.0, y), Pid(PidSettings(**free, anti_windup=rule)).run(1.0, y))
+    assert np.array_equal(Pid(PidSettings(**free)).run(y, 1.0), Pid(PidSettings(**free, anti_windup=rule)).run(y, 1.0))
 
 
 @settings(max_examples=60, deadline=None)
@@ -91,7 +91,7 @@ def test_limits_hold(setting, signals, rule, rate):
     pid = Pid(setting.changed(anti_windup=rule, rate=rate))
     last = None
     for y_sp, y in signals:
-        u = pid.step(y_sp, y)
+        u = pid.step(y, y_sp)
         assert setting.u_low <= u <= setting.u_high
         if rate and last is not None:
             assert abs(u - last) <= rate * setting.h
@@ -113,7 +113,7 @@ def test_frequency_response():
     s = PidSettings(K=2.0, Ti=5.0, Td=1.0, Tf=0.3, h=0.2)
     omega, n = 2 * np.pi / 8.0, 4000
     t = np.arange(n) * s.h
-    u = Pid(s).run(0.0, np.sin(omega * t))
+    u = Pid(s).run(np.sin(omega * t), 0.0)
     tail = slice(n - 400, n)  # ten periods
     basis = np.column_stack([np.sin(omega * t[tail]), np.cos(omega * t[tail]), np.ones(400)])
     sine, cosine, _ = np.linalg.lstsq(basis, -u[tail], rcond=None)[0]
@@ -135,18 +135,18 @@ def test_derivative_on_measurement_or_error(c, kick):
     """A set-point step of 1 gives K b at once, and K Td/(Tf + h) more with the derivative on the error."""
     pid = Pid(PidSettings(K=2.0, Ti=4.0, Td=1.0, Tf=0.1, h=0.5, b=0.3, c=c))
     before = pid.step(0.0, 0.0)
-    assert math.isclose(pid.step(1.0, 0.0) - before, 2.0 * 0.3 + kick)
+    assert math.isclose(pid.step(0.0, 1.0) - before, 2.0 * 0.3 + kick)
 
 
 def test_a_first_sample_has_no_derivative_kick():
     pid = Pid(PidSettings(K=2.0, Td=1.0, Tf=0.1, h=0.5))
-    assert math.isclose(pid.step(0.0, 5.0), -10.0)
-    assert math.isclose(pid.step(0.0, 5.0), -10.0)
+    assert math.isclose(pid.step(5.0, 0.0), -10.0)
+    assert math.isclose(pid.step(5.0, 0.0), -10.0)
 
 
 def test_without_integral_action_the_offset_stays():
     pid = Pid(PidSettings(K=0.1, h=1.0, u_low=0.0, u_high=10.0), I=9.0)
-    assert [round(pid.step(90.0, y), 12) for y in (90.0, 85.0)] == [9.0, 9.5]
+    assert [round(pid.step(y, 90.0), 12) for y in (90.0, 85.0)] == [9.0, 9.5]
     assert pid.I == 9.0
 
 
@@ -155,7 +155,7 @@ def test_conditional_as_printed_is_figure_4_7():
     s = PidSettings(K=F(3), Ti=F(2), h=F(1), u_low=F(-1), u_high=F(1), anti_windup="conditional", Tt=F(1))
     pid, program = Pid(s), ProgramController("4.7", s)
     for y in (0, 1, F(1, 4), -1, F(-1, 8), F(1, 16), 2):
-        assert pid.step(F(0), F(y)) == program.step(F(0), F(y))
+        assert pid.step(F(y), F(0)) == program.step(F(y), F(0))
         assert program.states["I"] == pid.I
 
 
@@ -163,7 +163,7 @@ def test_conditional_as_printed_is_figure_4_7():
 def test_conditional_integration_that_locks_up(rule, stuck):
     """I above the limit with a small error of the other sign: figure 4.7 never moves again."""
     pid = Pid(PidSettings(K=1.0, Ti=5.0, h=1.0, u_low=0.0, u_high=10.0, anti_windup=rule), I=12.0)
-    outputs = [pid.step(50.0, 51.0) for _ in range(100)]
+    outputs = [pid.step(51.0, 50.0) for _ in range(100)]
     assert (outputs[-1] == 10.0 and pid.I == 12.0) == stuck
 
 
@@ -177,7 +177,7 @@ def test_conditional_safe_always_leaves_the_wrong_limit(setting, start, error):
     span = abs(start) + abs(setting.K * error) * 2 + 10
     samples = min(int(span / rate) + 2, 3000)
     for _ in range(samples):
-        u = pid.step(error, F(0))
+        u = pid.step(F(0), error)
     if samples < 3000:
         assert u == (setting.u_high if setting.K * error > 0 else setting.u_low)
 
@@ -194,7 +194,7 @@ def test_tracking_unwinds_with_its_time_constant():
 
 def _settled(pid: Pid, y_sp=5.0, y=5.0, samples=400):
     for _ in range(samples):
-        pid.step(y_sp, y)
+        pid.step(y, y_sp)
     return pid
 
 
@@ -222,14 +222,14 @@ def test_exact_change_of_any_setting(change):
     assert all(math.isclose(quiet.step(5.0, 5.0), u, abs_tol=1e-9) for _ in range(20))
     moving = Pid(BASE)
     for y in (0.0, 1.0, 3.0):
-        moving.step(5.0, y)
-    expected = moving._unlimited(5.0, 3.5)
-    moving.step(5.0, 3.5)
+        moving.step(y, 5.0)
+    expected = moving._unlimited(3.5, 5.0)
+    moving.step(3.5, 5.0)
     moving.change(**change)
     twin = Pid(BASE)
     for y in (0.0, 1.0, 3.0, 3.5):
-        twin.step(5.0, y)
-    assert math.isclose(moving._unlimited(5.0, 3.5), twin._unlimited(5.0, 3.5), abs_tol=1e-9)
+        twin.step(y, 5.0)
+    assert math.isclose(moving._unlimited(3.5, 5.0), twin._unlimited(3.5, 5.0), abs_tol=1e-9)
     assert expected == twin.v
 
 
@@ -259,9 +259,9 @@ def test_manual_and_back():
         assert pid.step(5.0, 5.0) == u
         pid.manual(12.0)
         for _ in range(200):
-            assert pid.step(5.0, 4.0) == 12.0
+            assert pid.step(4.0, 5.0) == 12.0
         pid.auto(transfer)
-        results[transfer] = pid.step(5.0, 4.0) - 12.0
+        results[transfer] = pid.step(4.0, 5.0) - 12.0
         assert pid.mode == "auto"
     assert math.isclose(results["exact"], 0.0, abs_tol=1e-12)
     assert math.isclose(results["tracking"], 2.0 * 2.0 / 4.0 * 1.0)
@@ -277,28 +277,28 @@ def test_manual_needs_an_output_within_the_limits():
         pid.auto("soft")
     pid.manual(3.0)
     with pytest.raises(ValueError, match="the controller is in manual"):
-        pid.run(0.0, [1.0])
+        pid.run([1.0], 0.0)
 
 
 @pytest.mark.parametrize(("y_sp", "y", "name"), [(0.0, math.nan, "y"), (0.0, math.inf, "y"), (math.nan, 0.0, "y_sp")])
 def test_a_bad_measurement_keeps_the_state(y_sp, y, name):
     pid, twin = Pid(BASE), Pid(BASE)
     for controller in (pid, twin):
-        controller.step(1.0, 0.2)
-        controller.step(1.0, 0.4)
+        controller.step(0.2, 1.0)
+        controller.step(0.4, 1.0)
     with pytest.raises(
         BadMeasurement, match=f"{name} = (nan|inf) is not a finite number; state kept, last output"
     ) as caught:
-        pid.step(y_sp, y)
+        pid.step(y, y_sp)
     assert caught.value.output == twin.u
-    assert pid.step(1.0, 0.5) == twin.step(1.0, 0.5)
+    assert pid.step(0.5, 1.0) == twin.step(0.5, 1.0)
 
 
 def test_a_bad_measurement_can_be_held():
     pid = Pid(BASE, on_bad="hold")
-    u = pid.step(1.0, 0.2)
+    u = pid.step(0.2, 1.0)
     with pytest.warns(BadMeasurementWarning, match="y = nan is not a finite number"):
-        assert pid.step(1.0, math.nan) == u
+        assert pid.step(math.nan, 1.0) == u
     with pytest.raises(SettingError, match="on_bad = 'ignore'"):
         Pid(BASE, on_bad="ignore")
 
@@ -306,18 +306,18 @@ def test_a_bad_measurement_can_be_held():
 def test_a_bad_measurement_in_a_run_is_named():
     y = np.array([0.1, 0.2, math.nan, 0.3])
     with pytest.raises(BadMeasurement, match="y = nan at sample 2"):
-        Pid(BASE).run(1.0, y)
+        Pid(BASE).run(y, 1.0)
     held = Pid(BASE, on_bad="hold")
     with pytest.warns(BadMeasurementWarning):
-        u = held.run(1.0, y)
+        u = held.run(y, 1.0)
     assert u[2] == u[1]
-    without = Pid(BASE).run(1.0, y[[0, 1, 3]])
+    without = Pid(BASE).run(y[[0, 1, 3]], 1.0)
     assert np.array_equal(u[[0, 1, 3]], without)
 
 
 def test_run_fills_an_array_and_checks_lengths():
     out = np.empty(3)
-    assert Pid(BASE).run(1.0, [0.0, 0.1, 0.2], out) is out
+    assert Pid(BASE).run([0.0, 0.1, 0.2], 1.0, out) is out
     assert np.isfinite(out).all()
     with pytest.raises(ValueError, match="2 set-points for 3 measurements"):
-        Pid(BASE).run([1.0, 1.0], [0.0, 0.1, 0.2])
+        Pid(BASE).run([0.0, 0.1, 0.2], [1.0, 1.0])

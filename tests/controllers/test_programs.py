@@ -21,9 +21,9 @@ def test_the_printed_p4_leaves_a_derivative_at_rest():
 def test_figure_4_7_by_hand():
     """e = 1, then 1/2: P + I + D = 2 + 0 + 2, then 1 + 1/2 - 1."""
     program = ProgramController("4.7", S)
-    assert program.step(F(1), F(0)) == 4
+    assert program.step(F(0), F(1)) == 4
     assert program.states == {"e_old": F(1), "I": F(1, 2)}
-    assert program.step(F(1), F(1, 2)) == F(1, 2)
+    assert program.step(F(1, 2), F(1)) == F(1, 2)
 
 
 def test_names():

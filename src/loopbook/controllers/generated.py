@@ -87,7 +87,7 @@ def _limit_lines(rate: bool, low: str, high: str, last: str, step: str) -> list[
 
 @cache
 def step(rule: str, rate: bool) -> Callable:
-    """One automatic sample: step(self, y_sp, y) -> u; sets self.v, self.u, self.I, self.x."""
+    """One automatic sample: step(self, y, y_sp) -> u; sets self.v, self.u, self.I, self.x."""
     names = {name: f"self._{name}" for name in GAINS} | {"I": "self.I", "x": "self.x"}
     limits = ("self._low", "self._high")
     body = [
@@ -99,12 +99,12 @@ def step(rule: str, rate: bool) -> Callable:
         "self.u = u",
         "return u",
     ]
-    return _compiled("\n".join(["def step(self, y_sp, y):", *("    " + line for line in body)]), "step")
+    return _compiled("\n".join(["def step(self, y, y_sp):", *("    " + line for line in body)]), "step")
 
 
 @cache
 def run(rule: str, rate: bool) -> Callable:
-    """Many samples: run(gains, state, y_sp, y, out) fills out and returns the state (I, x, v, u).
+    """Many samples: run(gains, state, y, y_sp, out) fills out and returns the state (I, x, v, u).
 
     All y and y_sp must be finite; states are local variables.
     """
@@ -112,7 +112,7 @@ def run(rule: str, rate: bool) -> Callable:
         f"{', '.join(GAINS)}, low, high, step = gains",
         "I, x, v, last = state",
         "k = 0",
-        "for y_sp, y in zip(set_points, measurements):",
+        "for y, y_sp in zip(measurements, set_points):",
         f"    v = {_text(expressions()['v'])}",
         *("    " + line for line in _limit_lines(rate, "low", "high", "last", "step")),
         f"    x = {_text(expressions()['x'])}",
@@ -121,7 +121,7 @@ def run(rule: str, rate: bool) -> Callable:
         "    k += 1",
         "return I, x, v, last",
     ]
-    head = "def run(gains, state, set_points, measurements, out):"
+    head = "def run(gains, state, measurements, set_points, out):"
     return _compiled("\n".join([head, *("    " + line for line in body)]), "run")
 
 
@@ -131,7 +131,7 @@ def bumpless_change() -> Callable:
     from derivations.bumpless import keep_both_parts
 
     new = {s.name: value for s, value in keep_both_parts().items()}
-    arguments = "I, x, y_sp, y, K_old, b_old, c_old, p_24old, K_new, b_new, c_new, p_24new"
+    arguments = "I, x, y, y_sp, K_old, b_old, c_old, p_24old, K_new, b_new, c_new, p_24new"
     source = f"def bumpless_change({arguments}):\n    return {_text(new['x'])}, {_text(new['I'])}"
     return _compiled(source, "bumpless_change")
 

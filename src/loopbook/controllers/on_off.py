@@ -21,7 +21,7 @@ class OnOff:
     switch that is u_low. Raises SettingError with name, value and range.
 
     >>> thermostat = OnOff(0, 1, hysteresis=0.5)
-    >>> [thermostat.step(20, y) for y in (19, 20.3, 20.6, 19.7, 19.4)]
+    >>> [thermostat.step(y, 20) for y in (19, 20.3, 20.6, 19.7, 19.4)]
     [1, 1, 0, 0, 1]
     """
 
@@ -46,7 +46,7 @@ class OnOff:
         elif not self.u_low <= self.u_rest <= self.u_high:
             raise SettingError("u_rest", self.u_rest, "u_low <= u_rest <= u_high")
 
-    def step(self, y_sp: Any, y: Any) -> Any:
+    def step(self, y: Any, y_sp: Any) -> Any:
         """The output for this sample. Raises BadMeasurement where y or y_sp is not a finite number; u stays."""
         e = y_sp - y
         if e - e != 0:

@@ -42,7 +42,7 @@ class Pid:
     Attributes: I, x, u (last output), v (last unlimited output), mode ("auto" or "manual"), settings.
 
     >>> pid = Pid(PidSettings(K=2.0, Ti=4.0, h=1.0, u_low=0.0, u_high=3.0))
-    >>> [pid.step(1.0, y) for y in (0.0, 0.5, 1.0)]
+    >>> [pid.step(y, 1.0) for y in (0.0, 0.5, 1.0)]
     [2.0, 1.5, 0.75]
     """
 
@@ -69,21 +69,21 @@ class Pid:
         self._automatic = generated.step(s.anti_windup, s.rate is not None)
         self._followed = generated.step("tracking", False)
 
-    def step(self, y_sp: Any, y: Any) -> Any:
-        """One sample: the output u for the set-point and the measurement of this sample."""
+    def step(self, y: Any, y_sp: Any) -> Any:
+        """One sample: the output u for the measurement and the set-point of this sample."""
         if y - y != 0 or y_sp - y_sp != 0:  # true for NaN and for infinities
-            return self._bad(y_sp, y)
+            return self._bad(y, y_sp)
         self._y_sp, self._y = y_sp, y
         if not self._started:
             self.x = self._p_24 * (y - self.settings.c * y_sp)
             self._started = True
         if self._arriving is not None:
-            self._arrive(y_sp, y)
+            self._arrive(y, y_sp)
         if self.mode == MANUAL:
-            return self._follow(y_sp, y)
-        return self._automatic(self, y_sp, y)
+            return self._follow(y, y_sp)
+        return self._automatic(self, y, y_sp)
 
-    def _bad(self, y_sp: Any, y: Any) -> Any:
+    def _bad(self, y: Any, y_sp: Any) -> Any:
         name, value = ("y", y) if y - y != 0 else ("y_sp", y_sp)
         error = BadMeasurement(name, value, self.u)
         if self.on_bad == "raise":
@@ -91,19 +91,19 @@ class Pid:
         warnings.warn(str(error), BadMeasurementWarning, stacklevel=3)
         return self.u
 
-    def _unlimited(self, y_sp: Any, y: Any) -> Any:
+    def _unlimited(self, y: Any, y_sp: Any) -> Any:
         return self._p_1 * y_sp - self._p_2 * y + self.I + self.x
 
-    def _arrive(self, y_sp: Any, y: Any) -> None:
+    def _arrive(self, y: Any, y_sp: Any) -> None:
         """First automatic sample after an exact transfer: I is set so that v is the last manual output."""
-        self.I += self._arriving - self._unlimited(y_sp, y)
+        self.I += self._arriving - self._unlimited(y, y_sp)
         self._arriving = None
 
-    def _follow(self, y_sp: Any, y: Any) -> Any:
+    def _follow(self, y: Any, y_sp: Any) -> Any:
         """A manual sample: the algorithm runs and tracks the operator's output."""
         low, high = self._low, self._high
         self._low = self._high = self._manual
-        self._followed(self, y_sp, y)
+        self._followed(self, y, y_sp)
         self._low, self._high = low, high
         return self.u
 
@@ -144,12 +144,12 @@ class Pid:
         if self._y is not None and bumpless != "none":
             new = self.settings
             x, self.I = generated.bumpless_change()(
-                self.I, self.x, self._y_sp, self._y, old.K, old.b, old.c, p24_old, new.K, new.b, new.c, self._p_24
+                self.I, self.x, self._y, self._y_sp, old.K, old.b, old.c, p24_old, new.K, new.b, new.c, self._p_24
             )
             self.x = x if bumpless == "exact" else self.x
         return self.settings
 
-    def run(self, y_sp: Any, y: Sequence[Any], out: Any = None) -> Any:
+    def run(self, y: Sequence[Any], y_sp: Any, out: Any = None) -> Any:
         """Many automatic samples over recorded signals, fast.
 
         y: measurements; y_sp: one set-point, or one per measurement. out: array or list to fill, default a new array
@@ -169,18 +169,18 @@ class Pid:
         done = 0
         while done < len(y):
             try:
-                outputs[done] = self.step(y_sp[done], y[done])  # first sample, arrival, bad measurements
+                outputs[done] = self.step(y[done], y_sp[done])  # first sample, arrival, bad measurements
             except BadMeasurement as bad:
                 raise BadMeasurement(bad.name, bad.value, bad.output, done) from None
             stop = next(k for k in stops if k > done)
-            self._play(y_sp, y, outputs, done + 1, stop)
+            self._play(y, y_sp, outputs, done + 1, stop)
             done = stop
         if out is None:
             return np.array(outputs) if all(isinstance(u, float) for u in outputs) else outputs
         out[:] = outputs
         return out
 
-    def _play(self, y_sp: list[Any], y: list[Any], outputs: list[Any], start: int, stop: int) -> None:
+    def _play(self, y: list[Any], y_sp: list[Any], outputs: list[Any], start: int, stop: int) -> None:
         if start >= stop:
             return
         s = self.settings
@@ -188,6 +188,6 @@ class Pid:
         numbers = (*self._gains, self._low, self._high, self._step)
         part = [None] * (stop - start)
         state = (self.I, self.x, self.v, self.u)
-        self.I, self.x, self.v, self.u = loop(numbers, state, y_sp[start:stop], y[start:stop], part)
+        self.I, self.x, self.v, self.u = loop(numbers, state, y[start:stop], y_sp[start:stop], part)
         outputs[start:stop] = part
         self._y_sp, self._y = y_sp[stop - 1], y[stop - 1]

@@ -46,7 +46,7 @@ class ProgramController:
         self._known = numbers | generated.program_gains(self.figure)(**numbers) | self._replaced
         self._known |= {"u_low": s.u_low, "u_high": s.u_high}
 
-    def step(self, y_sp: Any, y: Any) -> Any:
+    def step(self, y: Any, y_sp: Any) -> Any:
         """One pass: the output for this sample."""
         result = self._pass(self._known | self.states | {"y_sp": y_sp, "y": y})
         self.u, self.v = result["u"], result["v"]
