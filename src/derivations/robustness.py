@@ -137,6 +137,21 @@ def high_frequency_limit() -> Expr:
     return -joint_circle().right
 
 
+@cache
+def joint_M() -> Expr:
+    """The M of the joint circle that passes through the point L = a + i b of the Nyquist curve, for a < 0.
+
+    C^2 - R^2 = 1 for every M, so |L + C|^2 = R^2 gives C at once: C - 1 = -|1 + L|^2/(2 a) = 1/(2 M (M-1)), and that M.
+    The joint M of a loop is the largest along its curve; points with a >= 0 lie outside every joint circle.
+
+    >>> joint_M().subs({a: -Rational(2, 7), b: 0})
+    7/5
+    """
+    inverse = Symbol("q", positive=True)  # 1/(C - 1)
+    (root,) = [x for x in sympy.solve(2 * M * (M - 1) - inverse, M) if x.subs(inverse, 1) > 0]
+    return root.subs(inverse, -2 * a / ((1 + a) ** 2 + b**2))
+
+
 def example_M() -> Expr:
     """The robustness used throughout: M = 1.4.
 

@@ -70,6 +70,23 @@ def first_lag() -> Expr:
 
 
 @cache
+def first_lag_without_cancellation() -> Expr:
+    """The same T_1 with numerator and denominator multiplied by the root's conjugate.
+
+    The form of `first_lag` subtracts nearly equal numbers for small alpha and divides by alpha; this one has its limit
+    at alpha = 0, sqrt((K_p K_u)^2 - 1)/omega.
+
+    >>> first_lag_without_cancellation().subs({alpha: 0, K_p: 1, K_u: 2, omega: 1})
+    sqrt(3)
+    """
+    under = sympy.expand((first_lag() * alpha * omega) ** 2 * 2)  # inner - (1 + alpha^2)
+    inner = under + 1 + alpha**2
+    conjugate = inner + 1 + alpha**2
+    product = sympy.factor(sympy.expand(under * conjugate))  # 4 alpha^2 ((K_p K_u)^2 - 1)
+    return sqrt(sympy.cancel(product / (2 * alpha**2)) / conjugate) / omega
+
+
+@cache
 def dead_time() -> Expr:
     """L_1 that gives the process the phase -180 degrees at omega.
 

@@ -15,52 +15,74 @@ from loopbook.experiments.data import FrequencyData, StepData, TwoLagData
 from loopbook.experiments.plant import ExperimentError
 
 PRINTED_TAIL = 0.37
+ALPHAS = np.concatenate([np.geomspace(1e-9, 1e-2, 60)[:-1], np.linspace(0.01, 1.0, 199)])
+EDGE = 1e-6  # what the equation may leave at the ends alpha = 0 and 1, where it touches zero without crossing
 
 
 @cache
 def _functions(backend: str):
-    """T1(alpha, w, Kp, Ku), L1(w, T1, T2), e1(T1, T2, L1, T63, tail), the same for equal lags, e2 and e3."""
+    """T1(alpha, w, Kp, Ku) as printed and without cancellation, L1(w, T1, T2), e1(T1, T2, L1, T63, tail), the same for
+    equal lags, e2 and e3."""
     import sympy
 
     from derivations import two_lags as d
 
     tail = sympy.Symbol("tail")
     found = d.residuals(tail)
-    first = sympy.lambdify((d.alpha, d.omega, d.K_p, d.K_u), d.first_lag(), backend)
+    forms = d.first_lag(), d.first_lag_without_cancellation()
+    first, safe = (sympy.lambdify((d.alpha, d.omega, d.K_p, d.K_u), e, backend) for e in forms)
     dead = sympy.lambdify((d.omega, d.T_1, d.T_2), d.dead_time(), backend)
     arguments = (d.T_1, d.T_2, d.L_1, d.T_63, tail)
     e1, equal = (sympy.lambdify(arguments, e, backend) for e in (found.e1, found.e1_equal))
     e2 = sympy.lambdify((d.T_1, d.T_2, d.omega, d.K_p, d.K_u), found.e2, backend)
     e3 = sympy.lambdify((d.T_1, d.T_2, d.L_1, d.omega), found.e3, backend)
-    return first, dead, e1, equal, e2, e3
+    return first, safe, dead, e1, equal, e2, e3
 
 
 def lags(alpha: float, step: StepData, frequency: FrequencyData) -> tuple[float, float, float]:
     """T1, T2 and L1 that give gain and phase at -180 degrees for one alpha in (0, 1]."""
-    first, dead, *_ = _functions("math")
-    T1 = first(alpha, frequency.w180, step.Kp, frequency.Ku)
+    _, safe, dead, *_ = _functions("math")
+    T1 = safe(alpha, frequency.w180, step.Kp, frequency.Ku)
     return T1, alpha * T1, dead(frequency.w180, T1, alpha * T1)
 
 
 def residual(alpha: float, step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) -> float:
     """What the step response at T63 lacks of 1 - tail, for one alpha; the root is the answer."""
-    _, _, e1, equal, *_ = _functions("math")
+    _, _, _, e1, equal, *_ = _functions("math")
     T1, T2, L1 = lags(alpha, step, frequency)
     if step.T63 <= L1:
         return tail - 1.0
-    return equal(T1, T1, L1, step.T63, tail) if abs(alpha - 1) < 1e-7 else e1(T1, T2, L1, step.T63, tail)
+    return equal(T1, T1, L1, step.T63, tail) if abs(alpha - 1) < 1e-9 else e1(T1, T2, L1, step.T63, tail)
 
 
 def solve(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) -> TwoLagData:
     """The two-lag model with this step and frequency data, to rounding.
 
     tail: what of the step is left at T63; e^-1, or 0.37 as section 5.2.7 prints.
-    Raises ExperimentError where kappa = K180/Kp >= 1, or where no alpha in (0, 1] satisfies the equation: the process
-    is then not of this form, and one of the simpler rules applies.
+    Some data have two solutions; the one whose own tangent starts nearer to step.L is taken.
+    Raises ExperimentError where kappa = K180/Kp >= 1, or where no alpha from 0 to 1 satisfies the equation: the process
+    is then not of this form, and `nearest` or one of the simpler rules applies.
 
     >>> found = solve(StepData(1, 1.04, 0.075), FrequencyData(0.0091, 0.199), tail=0.37)
     >>> round(found.T1, 4), round(found.T2, 4), round(found.L1, 4)
     (0.9988, 0.1057, 0.0102)
+    """
+    found, left = nearest(step, frequency, tail)
+    if abs(left) > EDGE:
+        raise ExperimentError(
+            f"no T2/T1 between 0 and 1 gives both T63 = {step.T63:.4g} s and the frequency data (the equation is short "
+            f"by {abs(left):.2g} of the step at best): two lags and a dead time do not describe the process; use "
+            "amigo.pid_step, or amigo.pid_frequency where kappa > 0.2, or combination.nearest"
+        )
+    return found
+
+
+def nearest(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) -> tuple[TwoLagData, float]:
+    """The two-lag model that comes closest, and what it leaves of the equation (0 where `solve` succeeds).
+
+    It has the measured gain and phase at -180 degrees whatever is left; the step response is then missed by that much
+    at T63. This is where the program of figure 5.12 ends for a process of another form.
+    Raises ExperimentError where kappa >= 1 or no alpha gives a dead time that is not negative.
     """
     from scipy.optimize import brentq
 
@@ -69,21 +91,39 @@ def solve(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) 
             f"kappa = K180/Kp = {frequency.kappa(step.Kp):.4g} >= 1: no lag lowers the gain at -180 degrees; the "
             "process is nearly a pure dead time, use amigo.pi_step or amigo.pid_step"
         )
-    grid = np.concatenate([np.logspace(-6, -2, 60)[:-1], np.linspace(0.01, 1.0, 100)])
-    values = [residual(a, step, frequency, tail) for a in grid]
-    change = [i for i in range(len(grid) - 1) if values[i] * values[i + 1] <= 0]
-    if not change:
-        raise ExperimentError(
-            f"no T2/T1 between 0 and 1 gives both T63 = {step.T63:.4g} s and the frequency data (the residual stays "
-            f"between {min(values):.3g} and {max(values):.3g}): two lags and a dead time do not describe the process; "
-            "use amigo.pid_step, or amigo.pid_frequency where kappa > 0.2"
-        )
-    i = change[0]
-    alpha = brentq(residual, grid[i], grid[i + 1], (step, frequency, tail), xtol=1e-15, rtol=1e-13)
-    T1, T2, L1 = lags(alpha, step, frequency)
-    if L1 < 0:
-        raise ExperimentError(f"the model would need a negative dead time, L1 = {L1:.3g} s")
-    return TwoLagData(step.Kp, T1, T2, L1)
+    _, safe, dead, e1, equal, *_ = _functions("numpy")
+    T1 = safe(ALPHAS, frequency.w180, step.Kp, frequency.Ku)
+    L1 = dead(frequency.w180, T1, ALPHAS * T1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        values = e1(T1, ALPHAS * T1, L1, step.T63, tail)
+    values[-1] = equal(T1[-1], T1[-1], L1[-1], step.T63, tail)
+    values = np.where(step.T63 <= L1, tail - 1.0, values)
+    possible = np.flatnonzero(L1 >= 0)
+    if not possible.size:
+        raise ExperimentError(f"every model would need a negative dead time, L1 = {L1.max():.3g} s at most")
+    change = [i for i in possible[:-1] if i + 1 in possible and (values[i] < 0) != (values[i + 1] < 0)]
+    if change:
+        data = step, frequency
+        roots = [brentq(residual, *ALPHAS[i : i + 2], (*data, tail), xtol=1e-15, rtol=1e-13) for i in change]
+        found = [TwoLagData(step.Kp, *lags(alpha, *data)) for alpha in roots]
+        return min(found, key=lambda model: abs(_tangent(model) - step.L) if len(found) > 1 else 0.0), 0.0
+    i = int(possible[np.argmin(abs(values[possible]))])
+    return TwoLagData(step.Kp, float(T1[i]), float(ALPHAS[i] * T1[i]), float(L1[i])), float(values[i])
+
+
+def _tangent(model: TwoLagData) -> float:
+    """The dead time that a step experiment would read off the two-lag model: where its steepest tangent starts.
+
+    The slope of the step response, the difference of both modes, is largest at t = log(T1/T2) T1 T2/(T1 - T2) after L1.
+    """
+    T1, T2 = model.T1, model.T2
+    if T2 < 1e-9 * T1:
+        return model.L1
+    ratio = T1 / T2
+    t = T1 if abs(ratio - 1) < 1e-6 else math.log(ratio) * T1 / (ratio - 1)
+    slope = math.exp(-t / T1) / T1  # both modes fall together there
+    reached = 1 - (T1 + T2) * slope
+    return model.L1 + t - reached / slope
 
 
 @dataclass(frozen=True)
@@ -110,7 +150,7 @@ def grid(step: StepData, frequency: FrequencyData, spacing: float = 1e-5, tail: 
     count = round(1 / spacing) + 2
     alpha = np.cumsum(np.full(count, spacing))  # adds in order, as the program does
     alpha = alpha[alpha <= 1.0]
-    first, dead, e1, equal, e2, e3 = _functions("numpy")
+    first, _, dead, e1, equal, e2, e3 = _functions("numpy")
     w, Kp, Ku = frequency.w180, step.Kp, frequency.Ku
     T1 = first(alpha, w, Kp, Ku)
     T2 = alpha * T1

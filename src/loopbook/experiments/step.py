@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from loopbook.experiments.data import StepData
+from loopbook.experiments.exact_response import ExactResponse
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_level, settling_horizon, smooth
 from loopbook.identification.record import Record
 from loopbook.process import Process
@@ -28,17 +29,15 @@ def exact(process: Process) -> StepData:
     >>> found.Kp, round(found.T, 9), round(found.L, 9)
     (2.0, 3.0, 1.0)
     """
-    from loopbook.responses import open_loop_step
-
     if math.isinf(process.static_gain):
         raise ExperimentError("the process integrates: its step response has no final level; use integrating_step")
-    response = open_loop_step(process.rational, settling_horizon(process, 8.0))
     gain = process.static_gain
     if gain < 0:
         raise ExperimentError(f"the gain is {gain:.4g}: negative; turn the sign of the process and of u")
-    t, slope = response.derivative().maximum()
-    L = process.delay + t - float(response(t)) / slope
-    T63 = process.delay + float(response.roots(REACHED * gain)[0])
+    response = ExactResponse(process, settling_horizon(process.rational, 6.0))
+    t, slope = response.steepest()
+    L = process.delay + t - response.value(t) / slope
+    T63 = process.delay + response.reaches(REACHED * gain)
     return StepData(gain, max(T63 - L, 0.0), max(L, 0.0))
 
 
