@@ -7,7 +7,7 @@
 e and f are the constant inputs of a unit step at t = 0. Between two multiples of L the delayed signal is known, so each
 segment [kL, (k+1)L) is an ordinary linear equation. It is solved there by polynomials of degree 24 through the Radau
 points of a few cells, an L-stable collocation whose error falls faster than any power of the cell length. The cells
-are the same in every segment, hence one matrix takes a whole segment to the next and no value is ever interpolated.
+are the same in every segment, hence the delayed values are those stored one segment earlier: nothing is interpolated.
 A cell whose last Legendre coefficients are not yet at rounding level is halved, and the solution repeated: the result
 does not depend on any grid that a caller chooses.
 """
@@ -21,6 +21,7 @@ from loopbook.signals import Signal
 
 DEGREE = 24
 RESOLVED = 3e-14
+ROUNDED = 1e-9
 REACH = 8.0
 MOST_VALUES = 12_000_000
 
@@ -132,64 +133,39 @@ def cell_operator(system: DelayEquation, length: float) -> np.ndarray:
     return np.linalg.solve(matrix, right).reshape(p, n, n + p + 1)
 
 
-def _segment(system: DelayEquation, mesh: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """One segment as matrices of (x at its start, v at every start and node of its cells, 1): outputs, x at its end.
-
-    Shapes (cells, p + 1, m, inputs) and (n, inputs).
-    """
-    n, p, cells = len(system.A), DEGREE, len(mesh) - 1
-    inputs = n + cells * (p + 1) + 1
-    at_start = np.eye(n, inputs)
-    outputs = np.zeros((cells, p + 1, len(system.C), inputs))
-    known: dict[float, np.ndarray] = {}
-    for i, length in enumerate(np.diff(mesh)):
-        key = float(f"{length:.13g}")
-        if key not in known:
-            known[key] = cell_operator(system, length)
-        G, v = known[key], n + i * (p + 1)
-        states = np.einsum("pij,jk->pik", G[:, :, :n], at_start)
-        states[:, :, v + 1 : v + 1 + p] += G[:, :, n : n + p]
-        states[:, :, -1] += G[:, :, -1]
-        outputs[i, 0] = system.C @ at_start
-        outputs[i, 1:] = np.einsum("mn,pnk->pmk", system.C, states)
-        for q in range(p + 1):
-            outputs[i, q, :, v + q] += system.D
-        outputs[i, :, :, -1] += system.f
-        at_start = states[-1]
-    return outputs, at_start
-
-
-def _run(system: DelayEquation, mesh: np.ndarray, segments: int) -> np.ndarray:
-    """Values of all outputs at every start and node: shape (segments, cells, p + 1, m)."""
-    outputs, end = _segment(system, mesh)
-    cells, points, m, inputs = outputs.shape
-    step = np.vstack([outputs.reshape(-1, inputs), end])
-    n = len(system.A)
-    vector = np.zeros(inputs)
-    vector[-1] = 1.0
-    values = np.empty((segments, cells, points, m))
+def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> np.ndarray:
+    """Values of all outputs at every start and node, cell after cell: shape (segments, cells, p + 1, m)."""
+    n, m = len(system.A), len(system.C)
+    maps: dict[float, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+    keys = [float(f"{length:.13g}") for length in np.diff(mesh)]
+    for key in keys:
+        if key not in maps:
+            G = cell_operator(system, key)
+            maps[key] = _outputs(system, G)
+    values = np.empty((segments, len(keys), DEGREE + 1, m))
+    flat = values.reshape(segments, len(keys), (DEGREE + 1) * m)
+    x, v = np.zeros(n), np.zeros((len(keys), DEGREE + 1))
     for k in range(segments):
-        result = step @ vector
-        values[k] = result[: len(result) - n].reshape(cells, points, m)
-        vector[:n] = result[len(result) - n :]
-        vector[n:-1] = values[k, :, :, 0].ravel()
+        for i, key in enumerate(keys):
+            from_x, from_v, constant = maps[key]
+            result = from_x @ x + from_v @ v[i] + constant
+            flat[k, i], x = result[: result.size - n], result[result.size - n :]
+        v = values[k, :, :, 0]
     return values
 
 
-def _march(system: DelayEquation, mesh: np.ndarray) -> np.ndarray:
-    """As `_run` for a system without delay: cell after cell, no map of a whole segment."""
-    values = np.empty((1, len(mesh) - 1, DEGREE + 1, len(system.C)))
-    x, known = np.zeros(len(system.A)), {}
-    for i, length in enumerate(np.diff(mesh)):
-        key = float(f"{length:.13g}")
-        if key not in known:
-            G = cell_operator(system, length)
-            known[key] = G[:, :, : len(x)], G[:, :, -1]
-        states = known[key][0] @ x + known[key][1]
-        values[0, i, 0] = system.C @ x + system.f
-        values[0, i, 1:] = states @ system.C.T + system.f
-        x = states[-1]
-    return values
+def _outputs(system: DelayEquation, G: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Outputs at the start and the nodes of a cell, then x at its end, as maps of x, of v there, and of 1."""
+    n, p = len(system.A), DEGREE
+    states = np.zeros((p + 1, n, n + p + 2))
+    states[0, :, :n] = np.eye(n)
+    states[1:, :, :n], states[1:, :, n + 1 : n + 1 + p], states[1:, :, -1] = G[:, :, :n], G[:, :, n:-1], G[:, :, -1]
+    outputs = np.einsum("mn,pnk->pmk", system.C, states)
+    for q in range(p + 1):
+        outputs[q, :, n + q] += system.D
+    outputs[:, :, -1] += system.f
+    both = np.vstack([outputs.reshape(-1, n + p + 2), states[-1]])
+    return np.ascontiguousarray(both[:, :n]), np.ascontiguousarray(both[:, n:-1]), both[:, -1].copy()
 
 
 def solve(system: DelayEquation, horizon: float) -> list[Signal]:
@@ -206,7 +182,7 @@ def solve(system: DelayEquation, horizon: float) -> list[Signal]:
     segments = max(1, int(np.ceil(horizon / system.delay * (1 - 1e-12)))) if system.delay else 1
     length = system.delay or horizon
     mesh = graded_mesh(system.A, length)
-    worst = np.inf
+    best, stalled = np.inf, 0
     for _ in range(30):
         if segments * (len(mesh) - 1) * (DEGREE + 1) * len(system.C) > MOST_VALUES:
             raise ResponseError(
@@ -214,20 +190,23 @@ def solve(system: DelayEquation, horizon: float) -> list[Signal]:
                 "each, more than can be stored: shorten the horizon"
             )
         with np.errstate(over="ignore", invalid="ignore"):
-            values = _run(system, mesh, segments) if system.delay else _march(system, mesh)
+            values = _march(system, mesh, segments)
         if not np.isfinite(values).all():
             raise ResponseError(f"the response grows beyond all numbers before t = {horizon:g} s: the loop is unstable")
         coefficients = np.einsum("cq,kiqm->kicm", radau()[2], values)
         scale = np.abs(values).max(axis=(0, 1, 2))
         tail = np.abs(coefficients[:, :, -2:]).max(axis=(0, 2)) / np.where(scale > 0, scale, 1.0)
         rough = tail.max(axis=1) > RESOLVED
-        if not rough.any() or (tail.max() < 1e-11 and tail.max() > 0.5 * worst):
+        stalled = stalled + 1 if tail.max() > best / 4 else 0
+        best = min(best, tail.max())
+        if not rough.any() or (stalled == 2 and best < ROUNDED):
             break
-        worst = tail.max()
+        if stalled == 5:
+            raise ResponseError(f"rounding limits the response to a relative error of {best:.1e}: scale the problem")
         halves = (mesh[:-1] + mesh[1:])[rough] / 2
         mesh = np.sort(np.append(mesh, halves))
     else:
-        raise ResponseError(f"the response could not be resolved: relative error about {worst:.1e}")
+        raise ResponseError(f"the response could not be resolved: relative error about {best:.1e}")
     starts = np.arange(segments)[:, None] * system.delay + mesh[:-1]
     edges = np.append(starts.ravel(), segments * system.delay if system.delay else horizon)
     rows = coefficients.reshape(-1, DEGREE + 1, len(system.C))

@@ -28,8 +28,13 @@ def open_loop_step(process: Process, horizon: float) -> Signal:
     return solve(equation, max(horizon, 1e-9))[1]
 
 
-def _split(regulator: Regulator) -> tuple[float, StateSpace]:
-    """S/R = k s + S1/R with a proper S1/R, and the state space with inputs (r, -(y + n))."""
+def _control(regulator: Regulator, smooth: bool) -> StateSpace:
+    """State space of the regulator with inputs (r, n, y, dy/dt) and common poles.
+
+    Where y is smooth (the process does not act at once), S = S(0) + s S' and the regulator takes S' of dy/dt, which the
+    process's states give. That spares the difference of two large numbers which a fast derivative filter is otherwise,
+    and lets S/R have one zero more than poles.
+    """
     if len(regulator.T) > len(regulator.R):
         raise ResponseError(
             "the regulator differentiates the reference without a filter, and the derivative of a step is an impulse: "
@@ -39,11 +44,12 @@ def _split(regulator: Regulator) -> tuple[float, StateSpace]:
         raise ResponseError(
             f"S/R has {regulator.excess} zeros more than poles: a regulator may differentiate once at most; filter it"
         )
-    S, slope = regulator.S, 0.0
-    if regulator.excess == 1:
-        slope = S[0] / regulator.R[0]
-        S = tuple(np.polysub(S, slope * np.append(regulator.R, 0.0))[1:])
-    return slope, observer_form(regulator.R, [regulator.T, S])
+    if regulator.excess == 1 and not smooth:
+        raise ResponseError("an unfiltered derivative of a process that acts at once: filter the derivative")
+    S, none = regulator.S, (0.0,)
+    noise = S if regulator.excess < 1 else none
+    level, rate = ((S[-1],), S[:-1] or none) if smooth else (S, none)
+    return observer_form(regulator.R, [regulator.T, noise, level, rate])
 
 
 def _beside(process: Process, path: Process) -> tuple[StateSpace, bool]:
@@ -62,35 +68,34 @@ def _beside(process: Process, path: Process) -> tuple[StateSpace, bool]:
 
 def _equation(process: Process, regulator: Regulator, source: str, path: Process | None) -> DelayEquation:
     """The loop as a delay equation with outputs (u + d, u, y); the first is what passes the dead time."""
-    slope, control = _split(regulator)
     plant, shared = _beside(process, path or Process((0.0,), (1.0,)))
     if path is not None and not shared and (path.poles.real > -1e-12).any():
         raise ResponseError(
             "the disturbance's path has poles that do not decay and are not the process's own: no regulator can hold it"
         )
-    if slope and plant.D.any():
-        raise ResponseError("an unfiltered derivative of a process that acts at once: filter the derivative")
-    if slope and source == "noise":
+    control = _control(regulator, smooth=not plant.D.any())
+    if regulator.excess == 1 and source == "noise":
         raise ResponseError(
             "the regulator differentiates the measurement without a filter: a step of the noise gives an impulse"
         )
     r, d, n, w = (float(source == name) for name in INPUTS)
+    (b_u, b_w), (d_u, d_w) = plant.B.T, plant.D[0]
+    (b_r, b_n, b_y, b_dy), (d_r, d_n, d_y, d_dy) = control.B.T, control.D[0]
     n_p, n_c = len(plant.A), len(control.A)
-    b_u, b_w, d_u, d_w = plant.B[:, 0], plant.B[:, 1], plant.D[0, 0], plant.D[0, 1]
-    b_r, b_y, d_r, d_y = control.B[:, 0], control.B[:, 1], control.D[0, 0], control.D[0, 1]
-    y_x = np.append(plant.C[0], np.zeros(n_c))
-    y_rate = np.append(plant.C[0] @ plant.A, np.zeros(n_c))
-    A = np.block(
-        [[plant.A, np.zeros((n_p, n_c))], [np.zeros((n_c, n_p)), control.A]],
+    # y and dy/dt as (row of states, factor of v, constant)
+    y = np.append(plant.C[0], np.zeros(n_c)), d_u, d_w * w
+    dy = np.append(plant.C[0] @ plant.A, np.zeros(n_c)), float(plant.C[0] @ b_u), float(plant.C[0] @ b_w) * w
+    A = np.block([[plant.A, np.zeros((n_p, n_c))], [np.zeros((n_c, n_p)), control.A]])
+    A[n_p:] -= np.outer(b_y, y[0]) + np.outer(b_dy, dy[0])
+    b = np.append(b_u, -b_y * y[1] - b_dy * dy[1])
+    e = np.append(b_w * w, b_r * r - b_n * n - b_y * y[2] - b_dy * dy[2])
+    row = np.append(np.zeros(n_p), control.C[0]) - d_y * y[0] - d_dy * dy[0]
+    of_v = -d_y * y[1] - d_dy * dy[1]
+    constant = d_r * r - d_n * n - d_y * y[2] - d_dy * dy[2]
+    C = np.vstack([row, row, y[0]])
+    return DelayEquation(
+        A, b, e, C, np.array([of_v, of_v, y[1]]), np.array([constant + d, constant, y[2]]), process.delay
     )
-    A[n_p:] -= np.outer(b_y, y_x)
-    b = np.append(b_u, -b_y * d_u)
-    e = np.append(b_w * w, b_r * r - b_y * (d_w * w + n))
-    u_x = np.append(np.zeros(n_p), control.C[0]) - d_y * y_x - slope * y_rate
-    u_v = -d_y * d_u - slope * float(plant.C[0] @ b_u)
-    u_1 = d_r * r - d_y * (d_w * w + n) - slope * float(plant.C[0] @ b_w) * w
-    C = np.vstack([u_x, u_x, y_x])
-    return DelayEquation(A, b, e, C, np.array([u_v, u_v, d_u]), np.array([u_1 + d, u_1, d_w * w]), process.delay)
 
 
 def closed_loop_step(
