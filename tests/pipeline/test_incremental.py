@@ -1,6 +1,8 @@
 """A report is built again when something it depends on changed, and the line says what; else nothing is done."""
 
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -214,3 +216,17 @@ def test_not_a_notebook(bench):
     outcome = bench.build()
     assert outcome.code == 1 and bench.reports() == ["a/good.html"]
     assert "cannot be read as a notebook" in bench.said
+
+
+def test_nothing_slow_is_imported_where_nothing_is_to_be_done(bench):
+    bench.write("a/b", TITLE, "1")
+    assert bench.build(formats=("ipynb",)).code == 0
+    check = (
+        "import sys\nfrom loopbook.cli import main\n"
+        "try:\n    main()\nexcept SystemExit as done:\n    assert not done.code, done.code\n"
+        "slow = {'papermill', 'nbclient', 'nbformat', 'nbconvert', 'jupyter_client', 'numpy', 'sympy', 'tqdm'}\n"
+        "print(sorted(slow & set(sys.modules)))"
+    )
+    command = [sys.executable, "-c", check, "--root", str(bench.root), "build", "--format", "ipynb"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.stdout == "1 notebook up to date\n[]\n", done.stderr

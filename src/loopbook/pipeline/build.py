@@ -40,24 +40,25 @@ def build(
     accept: bool = False,
     frozen: bool = False,
     console: Console | None = None,
+    ledger: bool = True,
 ) -> Outcome:
     """Build notebooks, by default all of the project.
 
     parameters: for the notebooks named, as typed values or as words of the command line. jobs: kernels at a time,
-    default one per core. accept, frozen: see `judge.judge`. Raises UsageError and EnvironmentProblem before the first
-    kernel starts; what happens later is in the outcome.
+    default one per core. accept, frozen: see `judge.judge`. ledger: False runs and exports only. Raises UsageError and
+    EnvironmentProblem before the first kernel starts; what happens later is in the outcome.
     """
     wanted, console = wanted or Wanted(), console or Console()
     _check(names, parameters, wanted)
     notebooks = project.select(names)
-    ledger = [n for n in notebooks if n.own] if not parameters and wanted.output is None else []
+    judged = [n for n in notebooks if n.own] if ledger and not parameters and wanted.output is None else []
     todo, broken = _plan(project, notebooks, parameters, wanted)
-    complete = bool(ledger) and len(ledger) == len(project.notebooks())
+    complete = bool(judged) and len(judged) == len(project.notebooks())
     if not broken and all(j.idle for j in todo) and not accept:
         from loopbook.pipeline.judge import remembered
 
-        verdict = remembered(project, ledger, f"{complete} {frozen}")
-        if verdict or not ledger:
+        verdict = remembered(project, judged, f"{complete} {frozen}")
+        if verdict or not judged:
             return _finish(project, [], verdict.failures if verdict else [], todo, console)
     _writable(project, todo)
     with atomic.only_builder(project.cache, lambda who: console.line(f"waiting for {who} to finish its build")):
@@ -71,18 +72,16 @@ def build(
             )
             return Outcome(INTERRUPTED)
         failures = broken + [f for d in done for f in d.failures]
-        if ledger:
+        if judged:
             from loopbook.pipeline.judge import judge
-
-            ran = [n for n in ledger if stamps.load(project, n)]
-            verdict = judge(project, ran, complete and len(ran) == len(ledger), accept, frozen)
-            failures += verdict.failures
-            console.changes(verdict.changes)
-            if complete and len(ran) < len(ledger):
-                console.line("the ledger was not checked for completeness: not every notebook ran")
-        if ledger:
             from loopbook.pipeline.manifest import write_manifest
 
+            ran = [n for n in judged if stamps.load(project, n)]
+            verdict = judge(project, ran, complete and len(ran) == len(judged), accept, frozen)
+            failures += verdict.failures
+            console.changes(verdict.changes)
+            if complete and len(ran) < len(judged):
+                console.line("the ledger was not checked for completeness: not every notebook ran")
             write_manifest(project)
     return _finish(project, done, failures, todo, console)
 

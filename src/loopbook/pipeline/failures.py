@@ -32,7 +32,8 @@ class Failure:
 
 
 def summary(failures: Sequence[Failure], limit: int = LINES) -> list[str]:
-    """At most ``limit`` lines: all details where they fit, else one line each, else the first and how many more.
+    """At most ``limit`` lines of a bearable length: all details where they fit, else one line each, else the first and
+    how many more.
 
     Every command that repeats a failure is named once, at the end.
     """
@@ -42,14 +43,18 @@ def summary(failures: Sequence[Failure], limit: int = LINES) -> list[str]:
     tail = [f"Repeat: {_together(repeats)}"] if repeats else []
     head = ["", f"{len(failures)} failed:" if len(failures) > 1 else "1 failed:"]
     room = limit - len(head) - len(tail)
-    full = [line for f in failures for line in f.lines()]
+    full = [_cut(line) for f in failures for line in f.lines()]
     if len(full) <= room:
         return [*head, *full, *tail]
-    short = [f.line for f in failures]
+    short = [_cut(f.line) for f in failures]
     if len(short) > room:
         rest = len(short) - (room - 1)
         short = [*short[: room - 1], f"and {rest} more: all of them in .cache/failures.txt"]
     return [*head, *short, *tail]
+
+
+def _cut(line: str, width: int = 240) -> str:
+    return line if len(line) <= width else line[: width - 1] + "…"
 
 
 def everything(failures: Sequence[Failure]) -> str:

@@ -80,20 +80,24 @@ def repeated(found: Iterable[Found]) -> list[Failure]:
     ]
 
 
-def missing(found: Iterable[Found], documents: Iterable[PrintedDocument]) -> list[Failure]:
-    """A failure for each place that prints something which no notebook checks."""
+def missing(found: Iterable[Found], documents: Iterable[PrintedDocument], few: int = 4) -> list[Failure]:
+    """What is printed and no notebook checks: a failure for each place, or where they are many for each document."""
     seen = {r.key for r in found}
     failures = []
     for document in documents:
+        lines, number = [], 0
         for table, items in zip(TABLES, (document.values, document.claims, document.misprints), strict=True):
             places: dict[str, list[str]] = {}
             for id, item in items.items():
                 if (table, document.id, id) not in seen:
                     places.setdefault(item.place, []).append(id)
-            for place, ids in places.items():
-                named = ", ".join(ids[:4]) + (f" and {len(ids) - 4} more" if len(ids) > 4 else "")
-                what = f"{document.id}, {place}: no notebook checks {table} {named}"
-                failures.append(Failure("", what, kind="check"))
+                    number += 1
+            lines += [f"{place}: no notebook checks {table} {', '.join(ids)}" for place, ids in places.items()]
+        if len(lines) <= few:
+            failures += [Failure("", f"{document.id}, {line}", kind="check") for line in lines]
+        else:
+            what = f"{document.id}: no notebook checks {number} printed entries at {len(lines)} places"
+            failures.append(Failure("", what, more=tuple(lines), kind="check"))
     return failures
 
 
