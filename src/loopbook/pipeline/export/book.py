@@ -23,7 +23,7 @@ from loopbook.pipeline.export.pdf import as_export_error, support_files
 from loopbook.pipeline.export.reading import Reading
 from loopbook.pipeline.export.report import collect_anchors, level_headings, number_blocks, read, settle_links
 from loopbook.pipeline.export.tables import from_data
-from loopbook.pipeline.export.typst_engine import TypstFailed, compile_pdf
+from loopbook.pipeline.export.typst_engine import TypstFailed, compile_turning, too_wide_table
 from loopbook.pipeline.export.typst_writer import TypstWriter, literal
 
 
@@ -75,6 +75,16 @@ class _Bound:
     part: str
 
 
+@dataclass(frozen=True)
+class _Cover:
+    title: str
+    subtitle: str
+    lines: tuple[str, ...]
+    author: str
+    language: str
+    depth: int
+
+
 def export_book(
     chapters: Sequence[Chapter],
     *,
@@ -94,6 +104,18 @@ def export_book(
     In the book ``notebook:NAME#ANCHOR`` leads to that place; a name or an anchor the book does not have is an error.
     Raises ExportError; ValueError for an empty book or a name twice.
     """
+    bound, anchors, top = _bind(chapters, appendix, appendix_title, language, strict_alt)
+    cover = _Cover(title, subtitle, tuple(lines), author, language, contents_depth)
+    try:
+        return compile_turning(lambda turned: _source(bound, anchors, top, cover, turned))
+    except TypstFailed as error:
+        raise _of_chapter(error) from None
+
+
+def _bind(
+    chapters: Sequence[Chapter], appendix: Sequence[Page], appendix_title: str, language: str, strict_alt: bool
+) -> tuple[list[_Bound], dict[str, set[str]], int]:
+    """Everything read and numbered, the anchors of each chapter, and the heading level of chapters."""
     if not chapters:
         raise ValueError("a book needs at least one chapter")
     names = [chapter.name for chapter in chapters] + [_page_name(page) for page in appendix]
@@ -127,11 +149,7 @@ def export_book(
     if found:
         name = found[0][0]
         raise ExportError(name, [problem for where, problem in found if where == name])
-    source, files, marks = _source(bound, anchors, top, title, subtitle, lines, author, language, contents_depth)
-    try:
-        return compile_pdf(source, files)
-    except TypstFailed as error:
-        raise _of_chapter(error, source, files, marks) from None
+    return bound, anchors, top
 
 
 def _page_name(page: Page) -> str:
@@ -188,49 +206,43 @@ def _dead_links(report: Report, anchors: dict[str, set[str]]) -> list[Problem]:
 
 
 def _source(
-    bound: list[_Bound],
-    anchors: dict[str, set[str]],
-    top: int,
-    title: str,
-    subtitle: str,
-    lines: Sequence[str],
-    author: str,
-    language: str,
-    contents_depth: int,
-) -> tuple[str, dict[str, bytes], list[tuple[int, str]]]:
-    """The Typst source, its files, and the line at which each chapter begins."""
-    plain_writer = TypstWriter(chapters=anchors)
-    told = ", ".join(f"[{plain_writer.inline(read_inline(line))}]" for line in lines)
-    pieces = [
-        '#import "report.typ": *',
-        f"#show: book.with({literal(title)}, {literal(subtitle)}, ({told}{',' if told else ''}), {literal(author)}, "
-        f"{literal(language)}, {contents_depth}, {top})",
-    ]
+    bound: list[_Bound], anchors: dict[str, set[str]], top: int, cover: _Cover, turned: frozenset[str]
+) -> tuple[str, dict[str, bytes]]:
+    """The Typst source of the book and the files beside it; a comment names each chapter for `_of_chapter`."""
+    lines = "".join(f"[{TypstWriter().inline(read_inline(line))}], " for line in cover.lines)
+    told = ", ".join(literal(text) for text in (cover.title, cover.subtitle))
+    rest = f"{literal(cover.author)}, {literal(cover.language)}, {cover.depth}, {top}"
+    pieces = ['#import "report.typ": *', f"#show: book.with({told}, ({lines}), {rest})"]
     files = support_files()
-    marks = []
     roman = 0
     for entry in bound:
         report = entry.report
-        writer = TypstWriter(report.name, f"{report.name}#", anchors)
-        marks.append((sum(piece.count("\n") + 1 for piece in pieces) + 1, report.name))
+        writer = TypstWriter(report.name, f"{report.name}#", anchors, turned)
+        pieces.append(f"// chapter {report.name}\n// cell 0")
         if entry.part:
             roman += 1
             number = _roman(roman) if entry.number.isdigit() else ""
             pieces.append(f"#part({literal(number)})[#{literal(entry.part)};]")
         also = [writer.label(report.title_anchor)] if report.title_anchor else []
         labels = ", ".join([f"label({literal(report.name)})", *also])
-        heading = f"#chapter({top}, {literal(entry.number)}, ({labels},))[{writer.inline(report.title)}]"
-        pieces.append(f"// cell 0\n{heading}")
+        pieces.append(f"#chapter({top}, {literal(entry.number)}, ({labels},))[{writer.inline(report.title)}]")
         pieces += [f"// cell {cell.number}\n{writer.report_cell(cell)}\n" for cell in report.cells if cell.blocks]
         files |= writer.files
-    return "\n".join(pieces) + "\n", files, marks
+    return "\n".join(pieces) + "\n", files
 
 
-def _of_chapter(error: TypstFailed, source: str, files: dict[str, bytes], marks: list[tuple[int, str]]) -> ExportError:
-    """The error with the name of the chapter whose lines it lies in."""
-    lines = [d.line for d in error.diagnostics if d.line is not None]
-    name = next((name for start, name in reversed(marks) if lines and start <= lines[0]), "the book")
-    return as_export_error(error, name, source, files)
+def _of_chapter(error: TypstFailed) -> ExportError:
+    """The error with the name of the chapter it lies in."""
+    name = "the book"
+    for diagnostic in error.diagnostics:
+        table = too_wide_table(diagnostic)
+        if table:
+            name = table.rpartition(" ")[0]
+        elif diagnostic.line is not None:
+            above = error.source.split("\n")[: diagnostic.line]
+            name = next((line[11:] for line in reversed(above) if line.startswith("// chapter ")), name)
+        break
+    return as_export_error(error, name)
 
 
 def _roman(number: int) -> str:

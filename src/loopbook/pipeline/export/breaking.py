@@ -32,8 +32,10 @@ def pieces(latex: str) -> list[str]:
     for token in _TOKEN.findall(latex):
         blank = token.isspace() or token in _SPACING
         if delimiter and not blank:
-            delimiter = False
-        elif token in _OPENING:
+            found[-1] += token
+            before, delimiter = ".", False
+            continue
+        if token in _OPENING:
             depth += 1
             delimiter = token == "\\left"
         elif token in _CLOSING:

@@ -15,7 +15,7 @@ from loopbook.pipeline.export.errors import ExportError, Problem
 from loopbook.pipeline.export.maths import problems
 from loopbook.pipeline.export.model import Report
 from loopbook.pipeline.export.report import read
-from loopbook.pipeline.export.typst_engine import TypstFailed, cell_finder, compile_pdf, explain
+from loopbook.pipeline.export.typst_engine import TypstFailed, cell_finder, compile_turning, explain
 from loopbook.pipeline.export.typst_writer import TypstWriter, literal
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -93,31 +93,34 @@ class PdfExporter(ReportExporter):
     def _template_name_default(self):
         return "loopbook_pdf"
 
-    def source(self, nb: Any, resources: dict[str, Any] | None = None) -> tuple[str, dict[str, bytes], Report]:
-        """The Typst source of a notebook, the files beside it, and the report it shows."""
-        resources = self._init_resources(resources)
-        report = self.report(nb, resources)
+    def report(self, nb: Any, resources: dict[str, Any]) -> Report:
+        """The notebook read, its formulas known to be understood. Raises ExportError."""
+        report = super().report(nb, resources)
         found = problems(report, "typst")
         if found:
             raise ExportError(report.name, found)
-        writer = TypstWriter(report.name)
+        return report
+
+    def source(self, report: Report, turned: frozenset[str] = frozenset()) -> tuple[str, dict[str, bytes]]:
+        """The Typst source of a report and the files beside it. turned: tables that get a landscape page."""
+        writer = TypstWriter(report.name, turned=turned)
         text = self.template.render(report=report, depth=contents_depth(report), writer=writer, literal=literal)
-        return text, {**support_files(), **writer.files}, report
+        return text, {**support_files(), **writer.files}
 
     def from_notebook_node(self, nb, resources=None, **kw):
         """The PDF's bytes, and the resources."""
         resources = self._init_resources(resources)
-        text, files, report = self.source(nb, resources)
+        report = self.report(nb, resources)
         try:
-            pdf = compile_pdf(text, files)
+            pdf = compile_turning(lambda turned: self.source(report, turned))
         except TypstFailed as error:
-            raise as_export_error(error, report.name, text, files) from None
+            raise as_export_error(error, report.name) from None
         resources["output_extension"] = self.file_extension
         return pdf, resources
 
 
-def as_export_error(error: TypstFailed, name: str, source: str, files: dict[str, bytes]) -> ExportError:
+def as_export_error(error: TypstFailed, name: str) -> ExportError:
     """The engine's complaints as problems of cells, each once."""
-    find = cell_finder(source, files)
+    find = cell_finder(error.source, error.files)
     explained = dict.fromkeys(explain(diagnostic, find) for diagnostic in error.diagnostics)
     return ExportError(name, [Problem(cell, text) for cell, text in explained])

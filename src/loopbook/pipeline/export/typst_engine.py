@@ -30,6 +30,8 @@ class TypstFailed(RuntimeError):
 
     def __init__(self, diagnostics: list[Diagnostic]):
         self.diagnostics = diagnostics
+        self.source = ""
+        self.files: dict[str, bytes] = {}
         super().__init__("; ".join(d.message for d in diagnostics))
 
 
@@ -91,7 +93,29 @@ def _diagnostics(text: str, message: str) -> list[Diagnostic]:
 
 _MISSING = re.compile(r'the text `"(?P<text>.*)"` could not be displayed')
 _PRIVATE = re.compile(r'contains the codepoint `"(?P<text>.*)"`')
-_TOO_WIDE = re.compile(r"loopbook\|(?P<cell>\d+)\|(?P<what>[^|]*)\|(?P<share>\d+)")
+_TOO_WIDE = re.compile(r"loopbook\|(?P<cell>\d+)\|(?P<what>[^|]*)\|(?P<table>[^|]*)\|(?P<share>\d+)")
+LANDSCAPE_FROM = 40
+"""The share, in percent, of its size at which a table fits a portrait page, from which on it fits a landscape one."""
+
+
+def compile_turning(write: Callable[[frozenset[str]], tuple[str, dict[str, bytes]]]) -> bytes:
+    """Compile what `write` gives for a set of turned tables.
+
+    A table too wide for the page is turned, onto a landscape page, and all is written and compiled again.
+    Raises TypstFailed, with the last source and files as its `source` and `files`.
+    """
+    turned: frozenset[str] = frozenset()
+    while True:
+        source, files = write(turned)
+        try:
+            return compile_pdf(source, files)
+        except TypstFailed as error:
+            wide = [m for d in error.diagnostics if (m := _TOO_WIDE.search(d.message)) and m["table"]]
+            more = {m["table"] for m in wide if int(m["share"]) >= LANDSCAPE_FROM} - turned
+            if not more:
+                error.source, error.files = source, files
+                raise
+            turned |= more
 
 
 def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | None]) -> tuple[int | None, str]:
@@ -111,6 +135,12 @@ def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | N
         told = f"no font of the report has {text!r} ({codes}); write it in another way, or as a picture"
         return cell_at(diagnostic.line, text), told
     return cell_at(diagnostic.line, ""), f"the PDF engine refuses it: {message}"
+
+
+def too_wide_table(diagnostic: Diagnostic) -> str:
+    """The name and count of the table that is too wide, or nothing."""
+    wide = _TOO_WIDE.search(diagnostic.message)
+    return wide["table"] if wide else ""
 
 
 def cell_finder(source: str, pictures: dict[str, bytes]) -> Callable[[int | None, str], int | None]:

@@ -85,20 +85,22 @@ class TypstWriter:
 
     name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
-    leads to its own PDF beside this one.
+    leads to its own PDF beside this one. turned: the tables that get a landscape page, by name and count ("a/b 3").
     """
 
     name: str = ""
     prefix: str = ""
     chapters: dict[str, set[str]] | None = None
+    turned: frozenset[str] = frozenset()
     files: dict[str, bytes] = field(default_factory=dict)
     cell: int = 0
+    tables: int = 0
 
     def report_cell(self, cell: ReportCell) -> str:
         """The source of one cell of the notebook, its anchor on its first block."""
         self.cell = cell.number
         first, *rest = (self.block(block) for block in cell.blocks)
-        if cell.anchor and isinstance(cell.blocks[0], Paragraph):
+        if cell.anchor and (isinstance(cell.blocks[0], Paragraph) or first.startswith("#landscape")):
             first = self.node(Anchor(cell.anchor)) + first
         elif cell.anchor and not isinstance(cell.blocks[0], Heading):
             first = f"#[{first}#{self.label(cell.anchor)}]"
@@ -200,9 +202,12 @@ class TypstWriter:
         cells = ",\n".join(self.table_cell(cell) for cell in grid.cells)
         caption = f"[{self.inline(grid.caption)}]" if grid.caption else "none"
         notes = "".join(f"[{self.inline(note)}], " for note in grid.notes)
-        where = self.where(grid.number or "a table")
+        self.tables += 1
+        id = f"{self.name} {self.tables}"
+        where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.columns}, {grid.rows}, {grid.head_rows}"
-        return f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), (\n{cells},\n))"
+        table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), (\n{cells},\n))"
+        return f"#landscape[{table}]" if id in self.turned else table
 
     def table_cell(self, cell: Cell) -> str:
         """One cell; ``words``: its unbreakable pieces that may decide how narrow its column can be."""
@@ -244,7 +249,7 @@ class TypstWriter:
         return f"{literal(file)}, {literal(picture.alt)}, {points}"
 
     def where(self, what: str) -> str:
-        return literal(f"{self.cell}|{what}")
+        return literal(f"{self.cell}|{what}|")
 
 
 def with_known_fonts(svg: bytes) -> bytes:
