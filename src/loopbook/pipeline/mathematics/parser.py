@@ -89,6 +89,8 @@ class Parser:
                         return found
                     self.lexer.next()
                     found.append(n.Middle(self.delimiter(token)))
+                elif in_fence and (middle := self.braced_middle()):
+                    found.append(middle)
                 elif token.is_command(*commands.INFIX):
                     self.lexer.next()
                     rest = self.items(in_fence)
@@ -104,6 +106,16 @@ class Parser:
                     node = self.scripted()
                     if node is not None:
                         found.append(node)
+
+    def braced_middle(self) -> n.Middle | None:
+        """``{\\middle|}``: no valid TeX, but what SymPy writes between the vectors of a dot product."""
+        start = self.lexer.position
+        if self.lexer.take("{") and self.lexer.peek().is_command("middle"):
+            found = n.Middle(self.delimiter(self.lexer.next()))
+            if self.lexer.take("}"):
+                return found
+        self.lexer.position = start
+        return None
 
     def argument(self, command: Token) -> list[n.Node]:
         """The argument of a command or script: a group, or the next single character or command."""

@@ -39,6 +39,8 @@ def _would_merge(last: n.Node | None, out: str, text: str) -> bool:
     base = last.base if isinstance(last, n.Scripts) else last
     if isinstance(base, n.Symbol) and base.large:
         return True
+    if isinstance(last, n.Fraction):
+        return text[:1].isalnum() or text[:1] == "("
     return out[-1:].isalnum() and text[:1].isalnum() and (base is not last or len(text) > 1)
 
 
@@ -52,9 +54,7 @@ def _node(node: n.Node) -> str:
             return _list(node.items)
         case n.Scripts():
             base = _node(node.base) + symbols.PRIMES.get(node.primes, "′" * node.primes)
-            sub = f"_{_bracketed(node.sub)}" if node.sub is not None else ""
-            sup = f"^{_bracketed(node.sup)}" if node.sup is not None else ""
-            return base + sub + sup
+            return base + _script("_", node.sub) + _script("^", node.sup)
         case n.Fraction():
             num = _list(node.num).strip()
             num = num if num.isalnum() else _bracketed(node.num)
@@ -94,6 +94,15 @@ def _node(node: n.Node) -> str:
     raise TypeError(f"no text form for {type(node).__name__}")
 
 
+def _script(mark: str, items: list[n.Node] | None) -> str:
+    """A sub- or superscript: index words such as y_sp stand bare, products in an exponent do not."""
+    if items is None:
+        return ""
+    text = _list(items).strip()
+    bare = len(text) == 1 or (text.isalnum() if mark == "_" else text.isdigit())
+    return mark + (text if bare else f"({text})")
+
+
 def _bracketed(items: list[n.Node]) -> str:
     text = _list(items).strip()
     whole = text[:1] == "(" and text[-1:] == ")" and "(" not in text[1:-1] and ")" not in text[1:-1]
@@ -105,7 +114,7 @@ def _is_atom(node: n.Node) -> bool:
     if isinstance(node, n.Scripts):
         short = all(len(_list(part)) == 1 for part in (node.sub, node.sup) if part is not None)
         return _is_atom(node.base) and short and (node.sub is None or node.sup is None)
-    return isinstance(node, n.Symbol | n.Number | n.Word | n.Text)
+    return isinstance(node, n.Symbol | n.Number | n.Word | n.Operator)
 
 
 def _grid(node: n.Grid) -> str:

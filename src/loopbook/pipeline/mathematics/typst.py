@@ -108,8 +108,8 @@ def _from(start: int, items: list[n.Node], found: list, before: str | None, styl
         if isinstance(item, n.StyleSwitch):
             rest = _from(i + 1, items, found, before, item.style) or '""'
             return join([*parts, f"{_STYLE[item.style]}({rest})"])
-        elif before == "op" and pair and _opens_with_bar(item):
-            parts.append(_space(THIN))
+        elif before == "op" and pair and (own := _space_after_operator(item)) is not None:
+            parts.append(_space(own))
         parts.append(_node(item, pair[0] if pair else "ord", style))
         before = pair[1] if pair else before
     if space is not None:
@@ -117,10 +117,17 @@ def _from(start: int, items: list[n.Node], found: list, before: str | None, styl
     return join(parts)
 
 
-def _opens_with_bar(node: n.Node) -> bool:
-    """A growing bar is an opening delimiter for Typst and an ordinary character in `spacing`."""
+def _space_after_operator(node: n.Node) -> float | None:
+    """The space before growing delimiters where Typst would set another one than `spacing` says.
+
+    A growing bar is ordinary in `spacing` and an opening delimiter for Typst; with a script it is the other way round.
+    """
     base = node.base if isinstance(node, n.Scripts) else node
-    return isinstance(base, n.Fenced | n.Grid) and base.left in BARS
+    if not isinstance(base, n.Fenced | n.Grid) or not base.left:
+        return None
+    if base.left in BARS:
+        return None if base is not node else THIN
+    return 0.0 if base is not node else None
 
 
 def _equation(items: list[n.Node], style: str) -> str:
