@@ -95,6 +95,11 @@ def test_a_formula_that_fits_nowhere_is_refused(make):
     )
 
 
+def test_mathematics_finds_its_own_functions(make):
+    accents = r"\dot{y} = \hat{x} + \bar{z}, \underbrace{a}_{b}, \sqrt[3]{c}, \binom{n}{k}"
+    assert "accent(" in make.typst(make.notebook(f"${accents}$ and $${accents}$$"))
+
+
 def test_wide_matrix_is_scaled(make):
     matrix = sympy.latex(sympy.Matrix(3, 9, lambda i, j: sympy.Symbol("x") ** (i + j) / (j + 2)))
     assert "mat(" in make.typst(make.notebook(f"$$M = {matrix}$$"))

@@ -24,7 +24,7 @@ from loopbook.pipeline.export.reading import Reading
 from loopbook.pipeline.export.report import collect_anchors, level_headings, number_blocks, read, settle_links
 from loopbook.pipeline.export.tables import from_data
 from loopbook.pipeline.export.typst_engine import TypstFailed, compile_turning, too_wide_table
-from loopbook.pipeline.export.typst_writer import TypstWriter, literal
+from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter, literal
 
 
 @dataclass(frozen=True)
@@ -212,7 +212,7 @@ def _source(
     lines = "".join(f"[{TypstWriter().inline(read_inline(line))}], " for line in cover.lines)
     told = ", ".join(literal(text) for text in (cover.title, cover.subtitle))
     rest = f"{literal(cover.author)}, {literal(cover.language)}, {cover.depth}, {top}"
-    pieces = ['#import "report.typ": *', f"#show: book.with({told}, ({lines}), {rest})"]
+    pieces = [IMPORT, f"#show: book.with({told}, ({lines}), {rest})"]
     files = support_files()
     roman = 0
     for entry in bound:

@@ -16,7 +16,7 @@ from loopbook.pipeline.export.maths import problems
 from loopbook.pipeline.export.model import Report
 from loopbook.pipeline.export.report import read
 from loopbook.pipeline.export.typst_engine import TypstFailed, cell_finder, compile_turning, explain
-from loopbook.pipeline.export.typst_writer import TypstWriter, literal
+from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter, literal
 
 TEMPLATES = Path(__file__).parent / "templates"
 CONTENTS_FROM = 3
@@ -104,7 +104,8 @@ class PdfExporter(ReportExporter):
     def source(self, report: Report, turned: frozenset[str] = frozenset()) -> tuple[str, dict[str, bytes]]:
         """The Typst source of a report and the files beside it. turned: tables that get a landscape page."""
         writer = TypstWriter(report.name, turned=turned)
-        text = self.template.render(report=report, depth=contents_depth(report), writer=writer, literal=literal)
+        told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": literal}
+        text = self.template.render(**told, functions=IMPORT)
         return text, {**support_files(), **writer.files}
 
     def from_notebook_node(self, nb, resources=None, **kw):

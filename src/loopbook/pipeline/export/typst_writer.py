@@ -42,6 +42,14 @@ from loopbook.pipeline.export.model import (
 from loopbook.pipeline.export.report import beside
 
 ROMAN_FONTS = ("DejaVu Sans", "DejaVu Serif", "DejaVu Sans Mono", "STIXGeneral", "Libertinus Serif", "cmr10", "cmmi10")
+IMPORT = '#import "report.typ": ' + ", ".join(
+    (
+        *("report", "book", "part", "chapter", "section", "landscape"),
+        *("m", "code", "inner", "outer", "page-of", "task", "inline-picture"),
+        *("listing", "formula", "drawing", "data-table", "thematic-break"),
+    )
+)
+"""Only what is called: a name such as accent would hide the function of that name in mathematics."""
 _STYLES = {
     "emph": "emph",
     "strong": "strong",
