@@ -227,7 +227,7 @@ class Document:
         rows, marks, notes, records = [], [], [], []
         for id, value in values.items():
             a, b = exact.get(id), from_inputs.get(id)
-            shown = ["" if _exact(x) is None else number(_exact(x), _digits_shown(value.printed)) for x in (a, b)]
+            shown = [_beside(x, value.printed) for x in (a, b)]
             if not self.compare:
                 rows.append([value.quantity, *shown, value.unit])
                 continue
@@ -235,7 +235,7 @@ class Document:
             explain = value.reason if verdict in (READ, MISPRINT, DIFFERS) else ""
             if explain:
                 notes.append(f"{value.quantity}: {explain}")
-            rows.append([value.quantity, value.printed, *shown, value.unit, verdict])
+            rows.append([value.quantity, _grouped(value.printed), *shown, value.unit, verdict])
             marks.append(MARKS[verdict])
             fields = {
                 "quantity": value.quantity,
@@ -338,6 +338,28 @@ class Document:
         ]
         marks = [MARKS[row[1]] for row in rows]
         return Table(["entry", "verdict", "number"], rows, f"{self.id}: the checks of this notebook", (), (), marks)
+
+
+def _beside(value: Any, digits: str) -> str:
+    """A computed number as it stands beside a print; an integer that no float can hold in full."""
+    value = _exact(value)
+    if value is None:
+        return ""
+    if value.denominator == 1 and abs(value) >= 10**17:
+        return _grouped(str(value.numerator))
+    return number(value, _digits_shown(digits))
+
+
+def _grouped(digits: str) -> str:
+    """More than 17 digits in a row in groups of ten, so that they can be compared and may wrap.
+
+    >>> _grouped("-2361183241434822606848"), _grouped("8360")
+    ('-2361183241 4348226068 48', '8360')
+    """
+    sign, row = ("-", digits[1:]) if digits.startswith("-") else ("", digits)
+    if len(row) <= 17 or not row.isdigit():
+        return digits
+    return sign + " ".join(row[i : i + 10] for i in range(0, len(row), 10))
 
 
 def _digits_shown(digits: str) -> int:
