@@ -60,7 +60,9 @@ def load_transfer() -> Expr:
 @cache
 def load_response() -> Expr:
     """y(t) after a unit step of the load, for alpha != T: k alpha (e^(-t/T) - e^(-t/alpha))/(T - alpha)."""
-    return sp.factor(sp.inverse_laplace_transform(sp.apart(load_transfer() / s, s), s, t))
+    step = load_transfer() / s
+    modes = [sp.factor(sp.limit(step * (s + 1 / tau), s, -1 / tau)) * sp.exp(-t / tau) for tau in (T, lam)]
+    return sp.factor_terms(sum(modes))
 
 
 @cache

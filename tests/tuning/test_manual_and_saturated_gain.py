@@ -37,6 +37,14 @@ def test_cells_are_judged_by_their_definitions():
     assert not manual.CELLS["Td", "settling"][1](before, Behaviour(2, 20, 8.0), 1.1)
 
 
+def test_behaviour_is_that_of_the_exact_metrics():
+    loop = Loop(THIRD, PidStandard(0.8, 3.15, 0.76, c=1.0, N=10))
+    found, exact = manual.behaviour(loop), loop.step().metrics()
+    assert found.overshoot == pytest.approx(exact.overshoot, abs=0.01)
+    assert found.settling == pytest.approx(exact.settling, rel=1e-4)
+    assert found.Ms == pytest.approx(loop.margins().Ms.value, rel=1e-12)
+
+
 def test_an_unstable_change_is_worse_and_not_little():
     gone = Behaviour(*[float("inf")] * 3)
     assert manual.CELLS["K", "stability"][1](Behaviour(2, 20, 10), gone, 2)
@@ -76,8 +84,9 @@ def test_high_saturated_gain_oscillates_like_a_relay():
     cycle = limit_cycle(THIRD, 1000, 1.0, 2 * np.pi)
     data = relay.estimate(relay.run(Plant(THIRD))).data
     assert cycle.at_limit > 0.99
+    # the sampled loop switches up to one interval, a 400th of the period, late
     assert cycle.period == pytest.approx(data.T180, rel=0.01)
-    assert cycle.ultimate_gain(1.0) == pytest.approx(1 / data.K180, rel=0.01)
+    assert cycle.ultimate_gain(1.0) == pytest.approx(1 / data.K180, rel=0.02)
 
 
 def test_below_the_ultimate_gain_there_is_no_limit_cycle():

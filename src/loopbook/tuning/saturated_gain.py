@@ -12,7 +12,7 @@ import numpy as np
 from loopbook.process import Process
 from loopbook.simulation import simulate
 
-PERIODS, PER_PERIOD = 30, 1000
+PERIODS, PER_PERIOD = 30, 400
 
 
 class NoLimitCycle(ValueError):
@@ -47,7 +47,7 @@ def limit_cycle(process: Process, K: float, limit: float, period: float) -> Limi
     """What a saturated P loop settles to after a kick, measured over its last ten periods.
 
     K: gain [u/y]; limit: |u| <= limit [u]; period: about that of the oscillation [s], sets the horizon (30 periods)
-    and the sampling (1000 per period, which adds half a sampling interval of delay).
+    and the sampling (400 per period, which adds half a sampling interval of delay).
     Raises NoLimitCycle where the oscillation has died out.
     """
     h, steps = period / PER_PERIOD, PERIODS * PER_PERIOD
