@@ -6,7 +6,7 @@ comes as a SymPy equation; `recursion` puts numbers in and `simulate` runs sever
 every signal zero before the first sample.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,11 +25,12 @@ class Recursion:
     terms: tuple[tuple[str, int, Any], ...]
 
 
-def recursion(equation: Any, values: Mapping[str, Any]) -> Recursion:
+def recursion(equation: Any, values: Mapping[str, Any], number: Callable | None = None) -> Recursion:
     """Put numbers into a difference equation.
 
     equation: SymPy Eq with target(k) on the left and a linear combination of signal(k - i), i >= 0, on the right.
-    values: symbol name -> int, Fraction or float; fractions stay exact. Raises DifferenceEquationError for a
+    values: symbol name -> int, Fraction or float; fractions stay exact. number: the type of the gains, for example
+    float to run fast; default as they come. Raises DifferenceEquationError for a
     symbol without a value, a term that is not linear, and a future sample.
 
     >>> import sympy
@@ -60,7 +61,7 @@ def recursion(equation: Any, values: Mapping[str, Any]) -> Recursion:
             raise DifferenceEquationError(f"{target}: {s} is no present or earlier sample of {now}")
     symbols = sorted({x for g in gains for x in g.free_symbols}, key=lambda x: x.name)
     numbers = function(symbols, gains)(*(values[x.name] for x in symbols))
-    parts = zip(samples, delays, numbers, strict=True)
+    parts = zip(samples, delays, map(number, numbers) if number else numbers, strict=True)
     return Recursion(target, tuple((s.func.__name__, int(d), g) for s, d, g in parts))
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from loopbook.exact import decimal, function, rational
+from loopbook.exact import decimal, rational
 
 
 @dataclass(frozen=True)
@@ -84,30 +84,3 @@ def sample_two_lags(T1: Any, T2: Any, gain: Any, dead_time: Any, h: Any, digits:
     model = zero_order_hold(two_lags(T1, T2, gain), h, *dead_time_in_samples(dead_time, h))
     a, b = ([rational(c, digits) for c in coefficients(p)[1:]] for p in (model.A, model.B))
     return SampledPlant(tuple(a), tuple(b), exact["h"])
-
-
-def place_poles(plant: SampledPlant, q: Any, poles: int | None = None, integrators: int = 1) -> dict[str, Fraction]:
-    """K_r, c_1, ..., d_0, ...: the regulator that places all poles at q (and the rest at the origin).
-
-    q: 0 <= q < 1, decimal or fraction. poles: how many; default the degree of A', as many as the plant has with the
-    integrators. Exact: the polynomial equation is solved with fractions.
-    Raises ValueError for q outside [0, 1) and the errors of `derivations.pole_placement.place`.
-    """
-    from sympy import Rational, Symbol
-
-    from derivations.delay_polynomials import Z
-    from derivations.pole_placement import integrators as fixed
-    from derivations.pole_placement import place
-
-    exact = decimal(q)
-    if not 0 <= exact < 1:
-        raise ValueError(
-            f"q = {q}: the pole must lie in [0, 1). Outside the unit circle the loop is unstable, q = 1 never "
-            "settles, and a negative q makes the input alternate"
-        )
-    poles = len(plant.a) + integrators if poles is None else poles
-    pole = Symbol("q")
-    wanted = ((1 - pole / Z) ** poles).subs(pole, Rational(exact.numerator, exact.denominator))
-    design = place(plant.A, plant.B, wanted, fixed(integrators))
-    names, expressions = zip(*design.parameters.items(), strict=True)
-    return dict(zip(names, function([], list(expressions))(), strict=True))
