@@ -100,6 +100,17 @@ def test_mathematics_finds_its_own_functions(make):
     assert "accent(" in make.typst(make.notebook(f"${accents}$ and $${accents}$$"))
 
 
+def test_formulas_inside_a_line_fit_the_line_or_fail_by_name(make):
+    sums = " + ".join(f"a_{{{i}}} b_{{{i}}}" for i in range(60))
+    assert "#long-m(" in make.typst(make.notebook(f"breaks: ${sums}$"))
+    fails(
+        make,
+        make.notebook("# T", f"not: $\\frac{{{sums}}}{{c}}$"),
+        "cell 2: a formula inside a line is",
+        formats=["pdf"],
+    )
+
+
 def test_wide_matrix_is_scaled(make):
     matrix = sympy.latex(sympy.Matrix(3, 9, lambda i, j: sympy.Symbol("x") ** (i + j) / (j + 2)))
     assert "mat(" in make.typst(make.notebook(f"$$M = {matrix}$$"))

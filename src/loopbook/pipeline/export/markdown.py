@@ -190,7 +190,7 @@ class _Cell:
             case "linebreak":
                 return [Break()]
             case "codespan":
-                return [Code(visible(html.unescape(token["raw"])))]
+                return [Code(visible(token["raw"]))]
             case "emphasis" | "strong" | "strikethrough":
                 return [Styled(_EMPHASIS[kind], _lines_only(self.inline(token["children"])))]
             case "link":

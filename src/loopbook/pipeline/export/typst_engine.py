@@ -1,5 +1,6 @@
 """Typst source to PDF bytes, in this process: our fonts only, no network, the same bytes each time."""
 
+import atexit
 import functools
 import importlib.util
 import json
@@ -44,18 +45,19 @@ def fonts() -> Any:
     """
     import typst
 
-    folder = tempfile.TemporaryDirectory(prefix="loopbook-fonts-")
+    folder = Path(tempfile.mkdtemp(prefix="loopbook-fonts-"))
+    owner = os.getpid()  # a forked child must not remove what its parent still reads
+    atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
     spec = importlib.util.find_spec("matplotlib")
     source = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" if spec and spec.origin else None
     for file in sorted(source.glob("*.ttf")) if source else ():
         if "LastResort" in file.name:
             continue
         try:
-            os.symlink(file, Path(folder.name) / file.name)
+            os.symlink(file, folder / file.name)
         except OSError:
-            shutil.copyfile(file, Path(folder.name) / file.name)
-    found = typst.Fonts(include_system_fonts=False, font_paths=[folder.name])
-    return found, folder  # the folder lives as long as the fonts do
+            shutil.copyfile(file, folder / file.name)
+    return typst.Fonts(include_system_fonts=False, font_paths=[str(folder)])
 
 
 def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
@@ -71,7 +73,7 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
         nowhere = str(root / "no-packages")
         try:
             compiler = typst.Compiler(
-                str(main), root=folder, font_paths=fonts()[0], package_path=nowhere, package_cache_path=nowhere
+                str(main), root=folder, font_paths=fonts(), package_path=nowhere, package_cache_path=nowhere
             )
             pdf, warnings = compiler.compile_with_warnings(timestamp=EPOCH, pdf_standards=list(STANDARDS))
         except typst.TypstError as error:

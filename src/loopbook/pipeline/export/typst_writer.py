@@ -45,11 +45,15 @@ ROMAN_FONTS = ("DejaVu Sans", "DejaVu Serif", "DejaVu Sans Mono", "STIXGeneral",
 IMPORT = '#import "report.typ": ' + ", ".join(
     (
         *("report", "book", "part", "chapter", "section", "landscape"),
-        *("m", "code", "inner", "outer", "page-of", "task", "inline-picture"),
+        *("m", "long-m", "code", "inner", "outer", "page-of", "task", "inline-picture"),
         *("listing", "formula", "drawing", "data-table", "thematic-break"),
     )
 )
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
+LONG_FORMULA = 40
+"""Characters of a formula's text from which on it may need more than one line of a column."""
+TEXT_WIDTH = 453
+"""Points between the margins of a page."""
 _STYLES = {
     "emph": "emph",
     "strong": "strong",
@@ -108,6 +112,8 @@ class TypstWriter:
         """The source of one cell of the notebook, its anchor on its first block."""
         self.cell = cell.number
         first, *rest = (self.block(block) for block in cell.blocks)
+        if rest and isinstance(cell.blocks[0], Listing):
+            first = self.listing(cell.blocks[0], keep=True)
         if cell.anchor and (isinstance(cell.blocks[0], Paragraph) or first.startswith("#landscape")):
             first = self.node(Anchor(cell.anchor)) + first
         elif cell.anchor and not isinstance(cell.blocks[0], Heading):
@@ -126,8 +132,8 @@ class TypstWriter:
                 return f"#section({level}, {literal(number)}, {self.label(anchor)})[{self.inline(children)}]"
             case Display():
                 return self.display(block)
-            case Listing(text, role, language):
-                return f"#listing({literal(role)}, {literal(_language(language))}, {literal(text)})"
+            case Listing():
+                return self.listing(block)
             case Bullets():
                 return self.bullets(block)
             case Definitions(items):
@@ -143,6 +149,11 @@ class TypstWriter:
                 told = f"[{self.inline(caption)}]" if caption else "none"
                 return f"#drawing({self.picture(picture)}, {told}, {literal(number)})"
         raise TypeError(f"no Typst form for {type(block).__name__}")
+
+    def listing(self, block: Listing, keep: bool = False) -> str:
+        """Preformatted text. keep: a short one stays on the page of what follows it."""
+        kept = ", keep: true" if keep and block.text.count("\n") < 15 else ""
+        return f"#listing({literal(block.role)}, {literal(_language(block.language))}, {literal(block.text)}{kept})"
 
     def bullets(self, block: Bullets) -> str:
         items = ", ".join(f"[{self.item(item, block.tight)}]" for item in block.items)
@@ -165,7 +176,7 @@ class TypstWriter:
             case Code(text):
                 return f"#code({literal(breakable(text))});"
             case Math(latex):
-                return f"#m({literal(as_text(latex))}, ${as_typst(latex, False)}$);"
+                return self.math(latex)
             case Styled(style, children):
                 return f"#{_STYLES[style]}[{self.inline(children)}];"
             case Link():
@@ -183,6 +194,14 @@ class TypstWriter:
                 return f"#[#footnote[{self.blocks(blocks)}]#{label}];" if blocks else f"#footnote({label});"
         raise TypeError(f"no Typst form for {type(node).__name__}")
 
+    def math(self, latex: str) -> str:
+        """A formula inside a line. A long one comes with its pieces, so that it is known whether lines can hold it."""
+        formula = f"{literal(as_text(latex))}, ${as_typst(latex, False)}$"
+        if len(as_text(latex)) < LONG_FORMULA:
+            return f"#m({formula});"
+        parts = ", ".join(f"${as_typst(part, False)}$" for part in _lines(latex))
+        return f"#long-m({self.where('a formula inside a line')}, {formula}, ({parts},));"
+
     def link(self, link: Link) -> str:
         inside = self.inline(link.children)
         if link.kind == "internal":
@@ -196,11 +215,10 @@ class TypstWriter:
         return f"label({literal(self.prefix + anchor)})"
 
     def display(self, block: Display) -> str:
-        parts = pieces(block.latex)
+        parts = _lines(block.latex)
         whole = f"({literal(as_text(block.latex))}, ${as_typst(block.latex, True)}$)"
         broken = ""
         if len(parts) > 1:
-            parts = [parts[0], *("{}" + part for part in parts[1:])]  # an operator at the start of a line has two sides
             broken = "".join(f"({literal(as_text(p))}, ${as_typst(p, True)}$), " for p in parts)
         label = literal(f"({block.label})") if block.label else "none"
         anchor = self.label(block.anchor) if block.anchor else "none"
@@ -241,8 +259,10 @@ class TypstWriter:
             if isinstance(node, Code):
                 word = max(re.split(r"[\s\u200b]+|(?<=[-/–])", breakable(node.text)), key=len)
                 parts.append(f"[{self.node(Code(word))}]")
-            elif isinstance(node, Math) and len(as_text(node.latex)) < 40:
+            elif isinstance(node, Math) and len(as_text(node.latex)) < LONG_FORMULA:
                 parts.append(f"[{self.node(node)}]")
+            elif isinstance(node, Math):
+                parts += [f"${as_typst(part, False)}$" for part in _lines(node.latex)]
         return "".join(f"{part}, " for part in parts)
 
     def picture(self, picture: Picture) -> str:
@@ -253,7 +273,7 @@ class TypstWriter:
         width = picture.width
         if width is None and picture.kind == "png":
             width = struct.unpack(">I", picture.data[16:20])[0]
-        points = "none" if width is None else f"{width * 0.75:g}pt"
+        points = "none" if width is None else f"{min(width * 0.75, TEXT_WIDTH):g}pt"
         return f"{literal(file)}, {literal(picture.alt)}, {points}"
 
     def where(self, what: str) -> str:
@@ -286,6 +306,12 @@ def with_known_fonts(svg: bytes) -> bytes:
         at = re.match(r"<(\w+:)?svg\b", text).end()
         text = f'{text[:at]} font-family="DejaVu Sans"{text[at:]}'
     return text.encode()
+
+
+def _lines(latex: str) -> list[str]:
+    """The pieces of a formula between possible line ends, each a formula: an operator at its start has two sides."""
+    first, *rest = pieces(latex)
+    return [first, *("{}" + part for part in rest)]
 
 
 def _language(name: str) -> str:
