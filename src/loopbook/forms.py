@@ -143,7 +143,8 @@ class PidStandard(_Form):
         if self.Ti == 0:
             raise FormError("Ti = 0 s: an infinite integral gain; write Ti = inf for no integral action")
         N, Tf = self.N, self.Tf
-        if N is not None and Tf is not None and not math.isclose(N * Tf, self.Td, rel_tol=1e-9):
+        unfiltered = N == math.inf and Tf == 0
+        if N is not None and Tf is not None and not unfiltered and not math.isclose(N * Tf, self.Td, rel_tol=1e-9):
             raise FormError(f"N = {N!r} and Tf = {Tf!r} s contradict each other (Tf = Td/N): give one of them")
         if Tf is None:
             N = math.inf if N is None else N

@@ -136,13 +136,34 @@ class Signal:
         slopes = legendre.legder(self.coefficients, axis=1)
         return Signal(self.edges, slopes * (2 / self.lengths)[:, None])
 
+    @property
+    def _sides(self) -> tuple[np.ndarray, np.ndarray]:
+        """The values at the left and at the right end of each cell."""
+        signs = (-1.0) ** np.arange(self.coefficients.shape[1])
+        return self.coefficients @ signs, self.coefficients.sum(axis=1)
+
+    def _may_vanish(self) -> np.ndarray:
+        """The cells that may hold a zero, as indices: all others provably hold none, or nothing but rounding.
+
+        Between two nodes the value changes by at most the largest slope, sum |c_k| k(k+1)/2, times their distance.
+        """
+        rows = self.coefficients
+        size = np.abs(rows).sum(axis=1)
+        loud = np.flatnonzero((np.abs(rows[:, 0]) <= size - np.abs(rows[:, 0])) & (size > 1e-13 * size.max(initial=0)))
+        k = np.arange(rows.shape[1])
+        nodes = np.linspace(-1, 1, 2 * rows.shape[1] + 1)
+        values = rows[loud] @ legendre.legvander(nodes, len(k) - 1).T
+        slope = np.abs(rows[loud]) @ (k * (k + 1) / 2)
+        least = np.minimum(np.abs(values[:, 1:]), np.abs(values[:, :-1]))
+        free = (values[:, 1:] * values[:, :-1] > 0) & (least > slope[:, None] * (nodes[1] - nodes[0]) / 2)
+        return loud[~free.all(axis=1)]
+
     def roots(self, level: float = 0.0) -> np.ndarray:
         """All times where the signal equals `level` or jumps across it, ascending."""
+        shifted = self - level
         found = []
-        scale = max(float(np.abs(self.coefficients).sum(axis=1).max()), abs(level))
-        for i, row in enumerate((self - level).coefficients):
-            if abs(row[0]) > np.abs(row[1:]).sum() or np.abs(row).max() <= 1e-15 * scale:
-                continue
+        for i in shifted._may_vanish():
+            row = shifted.coefficients[i]
             trimmed = legendre.legtrim(row, 1e-16 * np.abs(row).max())
             x = np.atleast_1d(legendre.legroots(trimmed))
             x = x[(abs(x.imag) < 1e-7) & (abs(x.real) <= 1 + 1e-10)].real
@@ -152,21 +173,25 @@ class Signal:
                 safe = np.where(rise == 0, np.inf, rise)
                 x = np.clip(x - np.clip(legendre.legval(x, trimmed) / safe, -1e-6, 1e-6), -1, 1)
             found.extend(self.edges[i] + (x + 1) / 2 * self.lengths[i])
-        for t in self.edges[:-1]:
-            before, after = self.limit_before(t) - level, float(self(t)) - level
-            if before * after < 0:
-                found.append(t)
+        left, right = shifted._sides
+        before = np.concatenate([[0.0 - level], right[:-1]])
+        found.extend(self.edges[:-1][before * left < 0])
         found = np.sort(found)
         distinct = np.append(True, np.diff(found) > 1e-12 * self.end) if found.size else slice(None)
         return found[distinct]
 
     def extremes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Times and values of all candidates for a maximum or minimum: turning points and both sides of every edge."""
-        times = np.concatenate([self.derivative().roots(), self.edges])
-        left = [self.limit_before(t) for t in self.edges[1:]]
+        """Times and values of all candidates for a maximum or minimum: turning points and both sides of every edge.
+
+        Within a cell where the signal moves by less than 1e-11 of its largest value, the edges stand for all of it.
+        """
+        moves = np.abs(self.coefficients[:, 1:]).sum(axis=1)
+        lively = moves > 1e-11 * np.abs(self.coefficients).sum(axis=1).max(initial=0.0)
+        turning = Signal(self.edges, self.derivative().coefficients * lively[:, None]).roots()
+        times = np.concatenate([turning, self.edges])
         order = np.argsort(times, kind="stable")
         t, values = times[order], self(times)[order]
-        return np.concatenate([t, self.edges[1:]]), np.concatenate([values, left])
+        return np.concatenate([t, self.edges[1:]]), np.concatenate([values, self._sides[1]])
 
     def maximum(self) -> tuple[float, float]:
         """(time, value) of the largest value."""
