@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from loopbook.gain_scheduling import Schedule, ScheduleError, closed_loop, crossing, open_loop
+from loopbook.gain_scheduling import Schedule, ScheduleError, closed_loop, crossing, local_model, open_loop, overshoots
 
 SETTINGS = [("2.88", "1.1", "0.275"), ("1.2988", "1.7", "0.425"), ("1.1114", "1.95", "0.4875")]
 EXACT = [tuple(map(Fraction, row)) for row in SETTINGS]
@@ -106,3 +106,18 @@ def test_wrong_questions_are_named(arguments, words):
     call = {"steps": SETPOINTS, "horizon": 45} | arguments
     with pytest.raises(ScheduleError, match=words):
         closed_loop(Schedule.fixed(1, 1, 0), **call)
+
+
+def test_local_model_of_the_second_step_is_close_to_the_printed_one():
+    model = local_model(1.0, 2.0)
+    assert (model.Kp, model.T, model.L) == pytest.approx((3.0, 2.76, 0.85), abs=0.01)
+    with pytest.raises(ScheduleError, match="must rise and start at 0"):
+        local_model(2.0, 1.0)
+
+
+def test_overshoots_are_per_step_and_infinite_where_the_run_is_lost():
+    calm = closed_loop(Schedule.fixed(1.1114, 1.95, 0.4875), SETPOINTS, 45)
+    first, second, third = overshoots(calm, SETPOINTS)
+    assert first == pytest.approx(0.0, abs=0.1) and 10 < second < 20 and 20 < third < 30
+    lost = closed_loop(Schedule.parabolas((0, 1, 4), EXACT), SETPOINTS, 45)
+    assert overshoots(lost, SETPOINTS)[2] == np.inf and np.isfinite(overshoots(lost, SETPOINTS)[:2]).all()

@@ -241,3 +241,32 @@ def closed_loop(
         return x + np.array([0.0, K * Td * jump, 0.0]) if derivative == "error" else x
 
     return _integrate(derivatives, kick, control, steps, horizon, points)
+
+
+def local_model(u_from: float, u_to: float, settle: float = 80.0):
+    """The first-order model with dead time (`experiments.data.StepData`) of the plant for one step of its input.
+
+    u_from >= 0, u_to > u_from [u]. settle [s]: how long the plant rests at u_from before the step.
+    Raises ScheduleError for other inputs: the plant has no steady state for u < 0.
+    """
+    from loopbook.experiments.two_points import PARTS, fit
+
+    if not 0 <= u_from < u_to:
+        raise ScheduleError(f"the step goes from u = {u_from:g} to {u_to:g}; it must rise and start at 0 or above")
+    low, high = u_from**2, u_to**2
+    start = settle if u_from else 0.0
+    steps = [(0, u_from), (settle, u_to)] if u_from else [(0, u_to)]
+    t1, t2 = (crossing(steps, low + part * (high - low), start) - start for part in PARTS)
+    return fit((high - low) / (u_to - u_from), t1, t2)
+
+
+def overshoots(run: Run, steps: Sequence[tuple[float, float]]) -> list[float]:
+    """Overshoot of each step of the set-point in % of that step; infinite where the run diverged during it."""
+    ends = [t for t, _ in steps[1:]] + [float("inf")]
+    found, before = [], 0.0
+    for (start, level), end in zip(steps, ends, strict=True):
+        part = run.between(start, end)
+        lost = run.diverged and run.t[-1] < end
+        found.append(float("inf") if lost else float(max(0.0, 100 * (part.y.max() - level) / (level - before))))
+        before = level
+    return found
