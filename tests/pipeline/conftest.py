@@ -11,6 +11,7 @@ from loopbook.pipeline import build as builder
 from loopbook.pipeline.console import Console
 from loopbook.pipeline.job import Wanted
 from loopbook.pipeline.project import Project, project_at
+from loopbook.pipeline.warm import PLAIN
 
 
 def cell(text: str, *tags: str, id: str = "") -> dict:
@@ -84,6 +85,14 @@ class Bench:
     def reports(self) -> list[str]:
         folder = self.root / "reports"
         return sorted(p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file())
+
+
+@pytest.fixture(autouse=True, scope="session")
+def fresh_kernels():
+    """Warming up takes longer than these notebooks; `test_warm.py` forks."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(PLAIN, "1")
+        yield
 
 
 @pytest.fixture

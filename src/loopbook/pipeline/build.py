@@ -12,14 +12,18 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from loopbook.pipeline import atomic, stamps
+from loopbook.pipeline import atomic, stamps, warm
 from loopbook.pipeline.console import Console
 from loopbook.pipeline.failures import Failure, everything, summary
 from loopbook.pipeline.job import Done, Job, Wanted, do, plan, repeat
 from loopbook.pipeline.project import FORMATS, Notebook, Project, UsageError
+from loopbook.pipeline.quick_imports import import_nbformat
 from loopbook.pipeline.source import Source, read_source
+from loopbook.pipeline.surroundings import environment
+from loopbook.pipeline.warm import Warm
 
 OK, FAILED, USAGE, ENVIRONMENT, INTERRUPTED = 0, 1, 2, 3, 130
+WORTH_WARMING = 2  # notebooks
 
 
 @dataclass
@@ -139,13 +143,14 @@ def _work(project: Project, work: list[Job], wanted: Wanted, jobs: int, console:
     """Do the jobs, the longest first so that none is left alone at the end. Raises KeyboardInterrupt."""
     if not work:
         return []
-    if any(j.run_because for j in work):
-        from loopbook.pipeline import kernels, run  # noqa: F401 (once, before the threads)
-
-        kernels.start_again()
     work = sorted(work, key=lambda j: (-(j.stamp.seconds if j.stamp else 1e9), j.notebook.id))
     done: list[Done] = []
-    with _interruptible(), console.progress(len(work)), ThreadPoolExecutor(min(jobs, len(work))) as pool:
+    with (
+        _interruptible(),
+        _kernels(project, sum(bool(j.run_because) for j in work)),
+        console.progress(len(work)),
+        ThreadPoolExecutor(min(jobs, len(work))) as pool,
+    ):
         waiting: dict[Future, Job] = {pool.submit(do, project, job, wanted): job for job in work}
         try:
             while waiting:
@@ -160,6 +165,20 @@ def _work(project: Project, work: list[Job], wanted: Wanted, jobs: int, console:
             _kill()
             raise
     return done
+
+
+@contextmanager
+def _kernels(project: Project, number: int):
+    """Import what runs notebooks, once, before the threads; meanwhile warm up what several kernels are forked from."""
+    if not number:
+        yield
+        return
+    warming = Warm(environment(project.root, project.cache)) if number >= WORTH_WARMING and warm.possible() else None
+    import_nbformat()
+    from loopbook.pipeline import kernels, run  # noqa: F401
+
+    with kernels.forked_from(warming):
+        yield
 
 
 def _result(future: Future, job: Job) -> Done:

@@ -18,7 +18,16 @@ from loopbook.pipeline.source import Source
 
 HERE = Path(__file__).parent
 PACKAGE = HERE.parent
-RUNS = ("canonical.py", "kernel_side.py", "kernels.py", "run.py", "matplotlibrc")
+RUNS = (
+    "canonical.py",
+    "kernel_side.py",
+    "kernels.py",
+    "run.py",
+    "surroundings.py",
+    "warm.py",
+    "warm_side.py",
+    "matplotlibrc",
+)
 EXPORTS = ("export", "mathematics")
 Prints = dict[str, str]
 

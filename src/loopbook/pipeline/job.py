@@ -12,6 +12,7 @@ from typing import Any
 from loopbook.pipeline import atomic, fingerprint, stamps
 from loopbook.pipeline.failures import Failure
 from loopbook.pipeline.project import EnvironmentProblem, Notebook, Project
+from loopbook.pipeline.quick_imports import import_nbformat
 from loopbook.pipeline.source import Source
 
 Exporter = Callable[..., bytes]
@@ -218,6 +219,7 @@ def _export(project: Project, job: Job, wanted: Wanted, content: dict, format: s
 
 
 def _exporter() -> Exporter:
+    import_nbformat()
     import nbformat
 
     from loopbook.pipeline.export import export

@@ -5,25 +5,31 @@ sockets. Where IPC does not exist (Windows) TCP is used, and a start that fails 
 """
 
 import ast
+import asyncio
 import json
 import os
 import shutil
 import sys
 import tempfile
 import threading
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
+from jupyter_client.provisioning.local_provisioner import LocalProvisioner
 from papermill.clientwrap import PapermillNotebookClient
 
-HERE = Path(__file__).parent
-EPOCH = "1577836800"  # 2020-01-01, the date inside every file that needs one
+from loopbook.pipeline.warm import Warm
+
 TRANSPORT = "tcp" if sys.platform == "win32" else "ipc"
 STARTS = 3 if TRANSPORT == "tcp" else 1
 
 _alive: set["PrivateKernelManager"] = set()
+_warm: Warm | None = None
 _lock = threading.Lock()
 _stopping = threading.Event()
 
@@ -32,40 +38,23 @@ class Stopped(Exception):
     """The build was interrupted; no kernel is started any more."""
 
 
-def environment(root: Path, cache: Path) -> dict[str, str]:
-    """The variables of a kernel: nothing of the user's configuration, nothing that differs between two runs.
+class WarmProvisioner(LocalProvisioner):
+    """jupyter_client's way to start a kernel, by a fork where that works."""
 
-    root: the project's folder; its ``src`` comes first on the path, so that a copy of the project runs its own code.
-    cache: the folder for what libraries keep between runs. The libraries of linear algebra get one thread: kernels run
-    beside each other, and sums then do not depend on the number of threads.
-    """
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "MPL", "JUPYTER", "IPYTHON", "LC_"))}
-    for name in ("matplotlib", "ipython", "jupyter"):
-        (cache / name).mkdir(parents=True, exist_ok=True)
-    source = [str(root / "src")] if (root / "src").is_dir() else []
-    source.append(str(HERE.parent.parent))
-    fixed = {
-        "PYTHONHASHSEED": "0",
-        "PYTHONNOUSERSITE": "1",
-        "PYTHONUTF8": "1",
-        "PYTHONPATH": os.pathsep.join(dict.fromkeys(source)),
-        "SOURCE_DATE_EPOCH": EPOCH,
-        "MATPLOTLIBRC": str(HERE / "matplotlibrc"),
-        "MPLCONFIGDIR": str(cache / "matplotlib"),
-        "IPYTHONDIR": str(cache / "ipython"),
-        "JUPYTER_CONFIG_DIR": str(cache / "jupyter"),
-        "JUPYTER_NO_CONFIG": "1",
-        "OMP_NUM_THREADS": "1",
-        "OPENBLAS_NUM_THREADS": "1",
-        "MKL_NUM_THREADS": "1",
-        "LC_ALL": "C.UTF-8",
-        "LANG": "C.UTF-8",
-        "TZ": "UTC",
-        "COLUMNS": "100",
-        "LOOPBOOK_ROOT": str(root),
-    }
-    kept.pop("DISPLAY", None)
-    return {**kept, **fixed}
+    warm: Warm | None = None
+
+    async def launch_kernel(self, cmd: list[str], **kwargs: Any) -> Any:
+        kernel = None
+        if self.warm is not None:
+            arguments = cmd[cmd.index("ipykernel_launcher") :]
+            order = (arguments, kwargs["env"], str(kwargs["cwd"]), kwargs["stderr"].fileno())
+            kernel = await asyncio.to_thread(self.warm.fork, *order)
+        if kernel is None:
+            return await super().launch_kernel(cmd, **kwargs)
+        self.process = kernel
+        self.pid = self.pgid = kernel.pid
+        self.cwd = kwargs["cwd"]
+        return self.connection_info
 
 
 class PrivateKernelManager(AsyncKernelManager):
@@ -84,6 +73,15 @@ class PrivateKernelManager(AsyncKernelManager):
     def kernel_spec(self) -> KernelSpec:
         command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
         return KernelSpec(argv=command, display_name="Python 3", language="python", name="python3")
+
+    async def _async_pre_start_kernel(self, **kwargs: Any) -> Any:
+        if self.provisioner is None:
+            self.kernel_id = kwargs.pop("kernel_id", None) or self.kernel_id or str(uuid.uuid4())
+            self.provisioner = WarmProvisioner(kernel_id=self.kernel_id, kernel_spec=self.kernel_spec, parent=self)
+            self.provisioner.warm = _warm
+        return await super()._async_pre_start_kernel(**kwargs)
+
+    pre_start_kernel = _async_pre_start_kernel
 
     async def _async_start_kernel(self, **kwargs: Any) -> None:
         with _lock:
@@ -135,9 +133,18 @@ class Client(PapermillNotebookClient):
             self.depends = json.loads(ast.literal_eval(answer["data"]["text/plain"]))
 
 
-def start_again() -> None:
-    """Allow kernels, after an interrupted build in the same process."""
+@contextmanager
+def forked_from(warm: Warm | None) -> Iterator[None]:
+    """Kernels of this block are forked from the warm process, where there is one. None is left at the end."""
+    global _warm
     _stopping.clear()
+    _warm = warm
+    try:
+        yield
+    finally:
+        _warm = None
+        if warm is not None:
+            warm.close()
 
 
 def stopping() -> bool:

@@ -26,6 +26,7 @@ from loopbook.pipeline.canonical import INJECTED, canonical
 from loopbook.pipeline.failures import Failure
 from loopbook.pipeline.project import Project
 from loopbook.pipeline.source import Source
+from loopbook.pipeline.surroundings import environment
 
 _ANSI = re.compile(r"\x1b\[[0-9;]*m")
 _WARNING = re.compile(r"(?:^|[\s:])(\w*Warning): (.*)")
@@ -33,6 +34,7 @@ _QUIET = logging.getLogger("loopbook.kernels")
 _QUIET.addHandler(logging.NullHandler())
 _QUIET.propagate = False
 _QUIET.setLevel(logging.CRITICAL)
+logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # it tells of tasks that wait for a kernel that died
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ def _execute(notebook: nbformat.NotebookNode, folder: Path, project: Project, ti
             "clients": clients,
             "timeout": int(timeout),
             "folder": str(folder),
-            "env": kernels.environment(project.root, project.cache),
+            "env": environment(project.root, project.cache),
         }
         try:
             papermill_engines.execute_notebook_with_engine(

@@ -1,4 +1,7 @@
-"""`loopbook verify`: two builds of two copies, in two folders, with one kernel and with four, give the same bytes."""
+"""`loopbook verify`: two builds of two copies give the same bytes.
+
+They differ in folder, time, number of kernels (one, four), and in whether kernels are started afresh or forked.
+"""
 
 import os
 import shutil
@@ -11,6 +14,7 @@ from pathlib import Path
 import click
 
 from loopbook.pipeline.project import EnvironmentProblem, Project
+from loopbook.pipeline.warm import PLAIN
 
 KINDS = (".ipynb", ".pdf", ".html", ".csv")
 COPIES = (("a", 1), ("another-folder-with-a-longer-name", 4))
@@ -74,6 +78,6 @@ def report(first: dict[str, str], second: dict[str, str]) -> int:
 
 
 def _build(copy: Path, jobs: int, names: tuple[str, ...]) -> int:
-    environment = {**os.environ, "PYTHONPATH": str(copy / "src")}
+    environment = {**os.environ, "PYTHONPATH": str(copy / "src"), **({PLAIN: "1"} if jobs == 1 else {})}
     command = [sys.executable, "-m", "loopbook.cli", "--root", str(copy), "build", f"-j{jobs}", *names]
     return subprocess.run(command, cwd=copy, env=environment, stdout=sys.stderr).returncode
