@@ -1,0 +1,101 @@
+"""The design report's tables."""
+
+import math
+from collections.abc import Sequence
+
+from loopbook.design.candidates import Refused
+from loopbook.design.evaluation import Evaluation, Robustness
+from loopbook.design.program import GAINS, SampledProgram
+from loopbook.display import Table, number
+from loopbook.identification.choice import Identified
+
+
+def _shown(value: float, digits: int = 3) -> str:
+    return "–" if value is None or math.isnan(value) else number(value, digits)
+
+
+def assumptions(found: Identified) -> Table:
+    """What the record was taken to be."""
+    rows = [[str(i + 1), text] for i, text in enumerate((*found.record.assumptions, *found.steps.notes))]
+    return Table(["", "what was assumed"], rows, "How the record was read", ["right", "left"])
+
+
+def fits(found: Identified) -> Table:
+    """Every fitted structure with its parameters and 95 % intervals; the chosen one is marked."""
+    rows, marks = [], []
+    for structure, fit in found.fits.items():
+        values = [f"{p.name} = {number(p.value, 4)} ± {number(p.half_width, 2)}" for p in fit.parameters]
+        rows.append([structure.name, ", ".join(values), number(fit.fit, 4), number(fit.rmse, 3),
+                     number(found.criteria[structure], 3)])  # fmt: skip
+        marks.append("good" if fit is found.chosen else "")
+    heads = ["model", "parameters with 95 % intervals", "fit [%]", "rms residual", "Akaike, above the best"]
+    return Table(heads, rows, "Models fitted to the record", ["left", "left", "right", "right", "right"], (), marks)
+
+
+def settings(evaluations: Sequence[Evaluation]) -> Table:
+    """Settings of every rule that applies, in standard and parallel form."""
+    rows = []
+    for e in evaluations:
+        pid, parallel = e.candidate.pid, e.candidate.pid.parallel()
+        times = [_shown(pid.Ti) if math.isfinite(pid.Ti) else "∞", _shown(pid.Td) if pid.Td else "–", _shown(pid.b)]
+        rows.append(
+            [e.candidate.name, _shown(pid.K), *times, _shown(parallel.I), _shown(parallel.D) if pid.Td else "–"]
+        )
+    heads = ["rule", "$K = P$", "$T_i$ [s]", "$T_d$ [s]", "$b$", "$I$ [1/s]", "$D$ [s]"]
+    return Table(
+        heads, rows, "Settings, standard form and parallel gains; derivative on the measurement, $T_f = T_d/10$"
+    )
+
+
+def validity(evaluations: Sequence[Evaluation], refused: Sequence[Refused]) -> Table:
+    """What limits the rules on this process, and which refused it."""
+    rows = [[e.candidate.name, "; ".join(e.candidate.notes)] for e in evaluations if e.candidate.notes]
+    rows += [[r.name, f"does not apply: {r.reason}"] for r in refused]
+    marks = ["note"] * len(rows)
+    return Table(["rule", "validity"], rows or [["all rules", "apply within their range"]], "Where the rules hold",
+                 ["left", "left"], (), marks or [""])  # fmt: skip
+
+
+def robustness(evaluations: Sequence[Evaluation], spread: dict[str, Robustness]) -> Table:
+    """Margins with exact dead time, and the same over the model's uncertainty where it is known."""
+    rows, marks = [], []
+    known = any(r.models for r in spread.values())
+    for e in evaluations:
+        found = spread.get(e.candidate.name)
+        row = [e.candidate.name]
+        margins = [e.Ms, e.Mt, e.gain_margin, e.phase_margin, e.delay_margin]
+        row += [number(m, 3) for m in margins] if e.stable else ["unstable", *["–"] * 4]
+        if known:
+            row += [f"{found.stable} of {found.models}", _shown(found.Ms)] if found else ["–", "–"]
+        rows.append(row)
+        marks.append("bad" if not e.stable else "good" if e.Ms <= 1.6 else "note" if e.Ms > 2 else "")
+    heads = ["rule", "$M_s$", "$M_t$", "gain margin", "phase margin [°]", "delay margin [s]"]
+    heads += ["stable models", "$M_s$, 95 %"] if known else []
+    return Table(heads, rows, "Robustness", (), (), marks)
+
+
+def performance(evaluations: Sequence[Evaluation]) -> Table:
+    """Responses to unit steps: what each setting gives and what it asks of the actuator."""
+    rows = []
+    for e in evaluations:
+        numbers = (e.iae_reference, e.iae_load, e.overshoot, e.settling, e.peak_input, e.variation, e.noise_gain)
+        rows.append([e.candidate.name, *[_shown(v) for v in numbers]])
+    heads = ["rule", "IAE, reference", "IAE, load", "overshoot [%]", "settling [s]", "peak $u$", "variation of $u$",
+             "noise gain"]  # fmt: skip
+    return Table(heads, rows, "Responses to unit steps of the reference and of the load")
+
+
+def coefficients(program: SampledProgram) -> Table:
+    """The numbers that go into the controller."""
+    s = program.settings
+    names = {"K": "gain", "Ti": "integral time", "Td": "derivative time", "Tf": "filter time constant",
+             "b": "set-point weight", "h": "sampling interval", "Tt": "tracking time constant"}  # fmt: skip
+    units = {"K": "u/y", "b": ""}
+    rows = [
+        [f"${n[0]}_{n[1]}$" if len(n) > 1 else f"${n}$", names[n], number(getattr(s, n), 6), units.get(n, "s")]
+        for n in names
+        if getattr(s, n) is not None
+    ]
+    rows += [[f"${name}$", GAINS[name], number(value, 6), ""] for name, value in program.gains.items()]
+    align = ["left", "left", "right", "left"]
+    return Table(["", "coefficient", "value", "unit"], rows, "The discrete regulator", align)

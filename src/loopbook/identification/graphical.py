@@ -1,0 +1,80 @@
+"""The documents' graphical rules on a record, each as its document defines it, beside the least-squares model.
+
+tangent and 63 %     pid-report, section 5.2.1: `loopbook.experiments.step.estimate`
+28.3 % and 63.2 %    pid-article, step-response method: T = 1.5 (t1 - t2), T0 = t1 - T
+final tangent        pid-report, section 5.2.2, for integrating processes: `experiments.integrating_step.estimate`
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from loopbook.identification.record import Record
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What one rule reads off a record. values: by name (Kp or Kv, T, L); empty where the rule refuses, with the reason."""
+
+    rule: str
+    source: str
+    values: dict[str, float]
+    reason: str = ""
+
+
+@cache
+def _two_point():
+    import sympy
+
+    from derivations import two_point_fit as fit
+
+    found = fit.fit_283_632()
+    parts = [float(fit.FRACTIONS[p]) for p in (fit.p1, fit.p2)]
+    return [sympy.lambdify((fit.t1, fit.t2), found[name]) for name in (fit.T, fit.T0)], parts
+
+
+def two_point(record: Record) -> dict[str, float]:
+    """Kp, T and L from the instants at which 63.2 % and 28.3 % of the way are made, counted from the step.
+
+    The final level is the mean of the last tenth of the record. Raises ExperimentError where the input is no single
+    step or the output does not settle.
+    """
+    from loopbook.experiments import step
+
+    settled = step.estimate(record)  # refuses what has no final level
+    (T_of, L_of), parts = _two_point()
+    marks = settled.marks
+    way = (record.y - marks["before"]) / (marks["after"] - marks["before"])
+    smooth = np.maximum.accumulate(np.convolve(np.pad(way, 2, "edge"), np.ones(5) / 5, "valid"))
+    t1, t2 = (float(np.interp(p, smooth, record.time)) - marks["t0"] for p in parts)
+    gain = (marks["after"] - marks["before"]) / marks["du"]
+    return {"Kp": gain, "T": float(T_of(t1, t2)), "L": float(L_of(t1, t2))}
+
+
+def readings(record: Record) -> list[Reading]:
+    """Every graphical rule on one record, with the reason where it refuses."""
+    from loopbook.experiments import integrating_step, step
+    from loopbook.experiments.data import DataError
+    from loopbook.experiments.plant import ExperimentError
+
+    def tangent() -> dict[str, float]:
+        data = step.estimate(record).data
+        return {"Kp": data.Kp, "T": data.T, "L": data.L}
+
+    def final_tangent() -> dict[str, float]:
+        data = integrating_step.estimate(record).data
+        return {"Kv": data.Kv, "L": data.L}
+
+    rules = (
+        ("tangent and 63 %", "pid-report, section 5.2.1", tangent),
+        ("28.3 % and 63.2 %", "pid-article, step-response method", lambda: two_point(record)),
+        ("final tangent", "pid-report, section 5.2.2", final_tangent),
+    )
+    found = []
+    for rule, source, read in rules:
+        try:
+            found.append(Reading(rule, source, read()))
+        except (ExperimentError, DataError) as error:
+            found.append(Reading(rule, source, {}, str(error)))
+    return found
