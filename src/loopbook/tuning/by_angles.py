@@ -1,0 +1,76 @@
+"""A PID controller for a wanted phase margin at a wanted crossover frequency, exact with dead time.
+
+Formulas: `derivations.pid_by_angles`. The two angles that are left over, those of one zero and of the filter's pole,
+are choices; what `double-tank` prints as the outcome of a tool has them at pi/4 and 0.00875 rad.
+"""
+
+from fractions import Fraction
+from math import pi
+from typing import Any
+
+from loopbook.forms import PidParallel
+from loopbook.process import Process
+from loopbook.tuning import RuleDoesNotApply
+
+
+def parameters(
+    process: Process, w: Any, phase_margin: Any, zero: Any = None, pole: Any = 0, digits: int = 30
+) -> dict[str, Fraction]:
+    """P [u/y], I [u/(y s)], D [u s/y] and N [rad/s] of the parallel form, to `digits` significant digits.
+
+    process: its num, den and delay are taken as the short fractions that the floats stand for (1/8360, not its
+    nearest double). w: crossover frequency [rad/s] > 0. phase_margin, zero, pole: angles [rad]; zero defaults to
+    pi/4. SymPy numbers (sympy.pi/3), fractions and decimals in quotes are exact, floats are what they are.
+    With the phase phi_p of the process at w, the free angle is b = phase_margin - phi_p - pi/2 - zero + pole.
+    Raises RuleDoesNotApply where b lies outside (0, pi/2): the regulator would need more lead than one zero gives, or
+    lag.
+    """
+    import mpmath
+    import sympy
+
+    from derivations import pid_by_angles as by_angles
+
+    with mpmath.workdps(digits + 10):
+        number = lambda v: mpmath.mpf(str(sympy.N(sympy.sympify(v), digits + 10)))  # noqa: E731
+        w, margin, f, a = (number(v) for v in (w, phase_margin, sympy.pi / 4 if zero is None else zero, pole))
+        at = mpmath.mpc(0, w)
+        num, den = ([_decimal(c) for c in row] for row in (process.num, process.den))
+        value = mpmath.polyval(num, at) / mpmath.polyval(den, at)
+        phase = mpmath.arg(value) - w * _decimal(process.delay)
+        b = mpmath.mpf(
+            sympy.lambdify([by_angles.phase, by_angles.margin, by_angles.f, by_angles.a], by_angles.lead(), "mpmath")(
+                phase, margin, f, a
+            )
+        )
+        if not 0 < b < mpmath.pi / 2:
+            raise RuleDoesNotApply(
+                f"a phase margin of {float(margin) * 180 / pi:.6g} degrees at {float(w):.6g} rad/s asks for the angle "
+                f"{float(b) * 180 / pi:.6g} degrees of the second zero; a PID controller gives 0 to 90"
+            )
+        symbols = [by_angles.w, by_angles.k, by_angles.f, by_angles.b, by_angles.a]
+        run = sympy.lambdify(symbols, list(by_angles.parallel().values()), "mpmath")
+        found = run(w, 1 / abs(value), f, b, a)
+        return {n: Fraction(mpmath.nstr(v, digits)) for n, v in zip(by_angles.parallel(), found, strict=True)}
+
+
+def _decimal(value: float) -> Any:
+    """The float as the short decimal or the simple fraction that it stands for."""
+    import mpmath
+
+    exact = Fraction(value).limit_denominator(10**7)
+    if float(exact) != value:
+        exact = Fraction(value)
+    return mpmath.mpf(exact.numerator) / exact.denominator
+
+
+def pid(process: Process, w: Any, phase_margin: Any, zero: Any = None, pole: Any = 0.01) -> PidParallel:
+    """The same as a controller, all parts acting on the error.
+
+    >>> from loopbook.loop import Loop
+    >>> plant = Process.fopdt(1, 5, 2)
+    >>> round(Loop(plant, pid(plant, 0.3, pi / 3)).margins().phase, 9)
+    60.0
+    """
+    return PidParallel(
+        **{name: float(value) for name, value in parameters(process, w, phase_margin, zero, pole).items()}
+    )
