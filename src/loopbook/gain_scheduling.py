@@ -76,16 +76,18 @@ class Schedule:
 
     def poles(self, output: float, structure: str = "inside") -> np.ndarray:
         """Poles of the loop linearised at the steady state with this output > 0 [rad/s], ideal derivative."""
+        _known(structure, STRUCTURES, "structure")
+        stiffness, coefficients = _linear_loop()
+        slope = float(self._slope(output)) if structure == "outside" else 0.0
+        return np.roots(coefficients(*self.at(output), stiffness(output), slope, output)).astype(complex)
+
+    @cached_property
+    def _slope(self):
         import sympy
 
-        from derivations import gain_scheduling as derived
+        from derivations.gain_scheduling import y
 
-        _known(structure, STRUCTURES, "structure")
-        K, Ti, Td = self.at(output)
-        ratio = sympy.log(sympy.sympify(self.K) / sympy.sympify(self.Ti)).diff(derived.y)
-        slope = float(ratio.subs(derived.y, output)) if structure == "outside" else 0.0
-        numbers = (K, Ti, Td, float(derived.stiffness().subs(derived.y0, output)), slope, output)
-        return np.roots(_coefficients()(*numbers)).astype(complex)
+        return sympy.lambdify(y, sympy.log(sympy.sympify(self.K) / sympy.sympify(self.Ti)).diff(y), modules="math")
 
     def is_stable(self, output: float, structure: str = "inside") -> bool:
         """Is the loop linearised at this output asymptotically stable?"""
@@ -93,13 +95,14 @@ class Schedule:
 
 
 @cache
-def _coefficients():
+def _linear_loop():
     import sympy
 
     from derivations import gain_scheduling as g
 
     rows = sympy.Poly(g.characteristic_outside(), g.s).all_coeffs()
-    return sympy.lambdify((g.K, g.Ti, g.Td, g.c, g.g, g.y0), rows, modules="math")
+    stiffness = sympy.lambdify(g.y0, g.stiffness(), modules="math")
+    return stiffness, sympy.lambdify((g.K, g.Ti, g.Td, g.c, g.g, g.y0), rows, modules="math")
 
 
 @cache
@@ -110,6 +113,26 @@ def _acceleration():
 
     compute = sympy.lambdify((y, v, u), acceleration(), modules="math")
     return lambda output, rate, control: compute(max(output, 0.0), rate, control)
+
+
+@cache
+def _static():
+    import sympy
+
+    from derivations.gain_scheduling import static_output, u
+
+    return sympy.lambdify(u, static_output(), modules="math")
+
+
+def static_output(control: float) -> float:
+    """The output that a constant input >= 0 holds. Raises ScheduleError for a negative input, which holds none.
+
+    >>> static_output(3.0)
+    9.0
+    """
+    if control < 0:
+        raise ScheduleError(f"u = {control:g}: the plant has no steady state for a negative input")
+    return float(_static()(control))
 
 
 def _known(value: str, names: tuple[str, ...], what: str) -> None:
@@ -253,7 +276,7 @@ def local_model(u_from: float, u_to: float, settle: float = 80.0):
 
     if not 0 <= u_from < u_to:
         raise ScheduleError(f"the step goes from u = {u_from:g} to {u_to:g}; it must rise and start at 0 or above")
-    low, high = u_from**2, u_to**2
+    low, high = static_output(u_from), static_output(u_to)
     start = settle if u_from else 0.0
     steps = [(0, u_from), (settle, u_to)] if u_from else [(0, u_to)]
     t1, t2 = (crossing(steps, low + part * (high - low), start) - start for part in PARTS)

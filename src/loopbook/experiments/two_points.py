@@ -39,7 +39,7 @@ def fit(k: float, t1: float, t2: float) -> StepData:
             f"two points: t1 = {t1!r} s (63.2 %) must come after t2 = {t2!r} s (28.3 %), both after the step"
         )
     T, T0 = _formulas()(t1, t2)
-    if T0 < -1e-3 * t1:
+    if T0 + 1e-3 * t1 < 0:
         raise DataError(
             f"two points: the dead time comes out as {T0:.4g} s: the response is faster at first than a lag"
         )
