@@ -251,10 +251,11 @@ class Document:
         align = ["left", "right", "right", "right", "left", "left"]
         if not self.compare:
             del heads[1], heads[-1], align[1], align[-1]
-        if not any(row[heads.index("from inputs")] for row in rows):
-            column = heads.index("from inputs")
-            for row in (heads, align, *rows):
-                del row[column]
+        for empty in ("from inputs", "exact"):
+            column = heads.index(empty)
+            if not any(row[column] for row in rows):
+                for row in (heads, align, *rows):
+                    del row[column]
         caption = caption or f"{self.id}, {place}: printed and computed"
         return self._checked(Table(heads, rows, caption, align, notes, marks), records)
 

@@ -145,6 +145,7 @@ class SampledLoop:
             raise LoopError(f"the loop is unstable (a pole at |z| = {abs(self.poles).max():.6g}) and has no margins")
         h = self.regulator.h
         factors = 1 / abs(self.at(self.phase_crossovers * h))
+        factors[factors < BORDER] = 0.0  # an integrator: the loop transfer is infinite at z = 1
         at_gain = np.degrees(np.angle(-self.at(self.gain_crossovers * h)))
         return SampledMargins(
             gain=float(factors[factors > 1].min(initial=np.inf)),
