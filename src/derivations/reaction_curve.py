@@ -78,6 +78,18 @@ def velocity_gain() -> Expr:
 
 
 @cache
+def velocity_gain_from_slope() -> Expr:
+    """K_v from two points of the final tangent, Delta_y_tan apart in y and Delta_t_tan in time.
+
+    >>> velocity_gain_from_slope()
+    Delta_y_tan/(Delta_t_tan*Delta_u)
+    """
+    rise, run = symbols("Delta_y_tan Delta_t_tan", positive=True)
+    slope = sympy.diff(final_tangent(), t)
+    return sympy.solve(slope - rise / run, K_v)[0]
+
+
+@cache
 def pulse_response() -> Expr:
     """The output of the integrating model after a pulse of width w and height 1/w, for t >= L + w.
 

@@ -4,6 +4,7 @@ Dead time enters exactly. Frequencies in rad/s, angles in rad.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,14 +52,19 @@ def phase(process: Process, w: np.ndarray) -> np.ndarray:
     >>> np.degrees(phase(Process((1.0,), (1.0, 1.0, 0.0)), np.array([1.0])))
     array([-135.])
     """
-    w = np.asarray(w, dtype=float)
+    return _phase_function(process)(np.asarray(w, dtype=float))
 
-    def turn(roots: np.ndarray) -> np.ndarray:
+
+def _phase_function(process: Process) -> Callable:
+    """The phase as a function of w, its roots found once."""
+
+    def turning(roots: np.ndarray) -> Callable:
         at_zero = abs(roots) < 1e-12 * max(1.0, abs(roots).max(initial=0.0))
-        rest = np.angle(1 - 1j * w[..., None] / roots[~at_zero]).sum(-1)
-        return rest + math.pi / 2 * at_zero.sum()
+        inverse, whole = 1j / roots[~at_zero], math.pi / 2 * int(at_zero.sum())
+        return lambda w: np.angle(1 - w[..., None] * inverse).sum(-1) + whole
 
-    return turn(process.zeros) - turn(process.poles) - process.delay * w
+    up, down, delay = turning(process.zeros), turning(process.poles), process.delay
+    return lambda w: up(w) - down(w) - delay * w
 
 
 def frequency_at(process: Process, angle: float) -> float:
@@ -74,16 +80,16 @@ def frequency_at(process: Process, angle: float) -> float:
     corners = [abs(x) for x in (*process.poles, *process.zeros) if abs(x) > 0]
     corners += [1 / process.delay] if process.delay else []
     low, high = math.log10(min(corners, default=1.0)) - 4, math.log10(max(corners, default=1.0)) + 4
-    grid = np.logspace(low, high, 400)
-    below = np.flatnonzero(phase(process, grid) <= angle)
+    grid, turned = np.logspace(low, high, 400), _phase_function(process)
+    below = np.flatnonzero(turned(grid) <= angle)
     if not below.size or below[0] == 0:
-        span = np.degrees(phase(process, grid[[0, -1]]))
+        span = np.degrees(turned(grid[[0, -1]]))
         raise NoSuchFrequency(
             f"the phase of the process runs from {span[0]:.0f} to {span[1]:.0f} degrees and does not pass "
             f"{math.degrees(angle):.0f} degrees"
         )
     a, b = grid[below[0] - 1], grid[below[0]]
-    return float(brentq(lambda w: float(phase(process, np.array(w))) - angle, a, b, xtol=1e-15, rtol=1e-14))
+    return float(brentq(lambda w: float(turned(np.array(w))) - angle, a, b, xtol=1e-15, rtol=1e-14))
 
 
 def ultimate(process: Process) -> FrequencyPoint:

@@ -100,14 +100,8 @@ def pi(process: Process, M: float = M_DEFAULT) -> Migo:
     >>> round(best.K, 3), round(best.Ti, 2)
     (0.606, 2.09)
     """
-    w = _pi_frequency(process, M)
+    w = _pi_touch(process, _reference(process), M)
     k, ki, _ = smooth_branch(process, np.array(w), M)
-    worst, at = _deepest(process, np.array([[k], [ki], [0.0]]), M)
-    if worst[0] < -TOLERANCE:
-        raise RuleDoesNotApply(
-            f"MIGO PI: the smooth optimum K = {k:.4g}, ki = {ki:.4g} enters the M = {M} circle at {at[0]:.4g} rad/s; "
-            "its largest ki lies on an edge where two frequencies bind"
-        )
     return _result(process, "MIGO PI", M, (k, ki, 0.0), (w,))
 
 
@@ -121,13 +115,27 @@ def pid(process: Process, M: float = M_DEFAULT) -> Migo:
     >>> round(best.K, 2), round(best.Ti, 2), round(best.Td, 2)
     (2.63, 1.49, 0.91)
     """
-    start = pi(process, M).touches[0]
-    low, high, second = _first_violation(process, start, _branch_end(process, start, M), M)
+    scale = _reference(process)
+    start = _pi_touch(process, scale, M)
+    low, high, second = _first_violation(process, scale, start, _branch_end(process, start, M), M)
     if math.isinf(second):
         w = _where_derivative_is(process, _kd_limit(process, M), low, high, M)
     else:
-        w, second = _second_touch(process, start, low, high, second, M)
+        w, second = _second_touch(process, scale, start, low, high, second, M)
     return _result(process, "MIGO PID", M, tuple(smooth_branch(process, np.array(w), M)), (w, second))
+
+
+def _pi_touch(process: Process, scale: float, M: float) -> float:
+    """The touching frequency of the PI optimum, once it is known to be feasible."""
+    w = _pi_frequency(process, scale, M)
+    k, ki, _ = smooth_branch(process, np.array(w), M)
+    worst, at = _deepest(process, scale, np.array([[k], [ki], [0.0]]), M)
+    if worst[0] < -TOLERANCE:
+        raise RuleDoesNotApply(
+            f"MIGO PI: the smooth optimum K = {k:.4g}, ki = {ki:.4g} enters the M = {M} circle at {at[0]:.4g} rad/s; "
+            "its largest ki lies on an edge where two frequencies bind"
+        )
+    return w
 
 
 def _reference(process: Process) -> float:
@@ -142,11 +150,11 @@ def _reference(process: Process) -> float:
         raise RuleDoesNotApply(f"MIGO: {error}, so ki has no finite optimum") from None
 
 
-def _pi_frequency(process: Process, M: float) -> float:
+def _pi_frequency(process: Process, scale: float, M: float) -> float:
     """The touching frequency of the PI optimum: where kd(w) rises through zero with positive gains."""
     from scipy.optimize import brentq
 
-    w = _reference(process) * np.logspace(-3, 0.7, 400)
+    w = scale * np.logspace(-3, 0.7, 400)
     k, ki, kd = smooth_branch(process, w, M)
     below_ultimate = phase(process, w) > -math.pi  # above it the loops on the branch are unstable
     rising = np.flatnonzero((kd[:-1] <= 0) & (kd[1:] > 0) & (ki[1:] > 0) & (k[1:] > 0) & below_ultimate[1:])
@@ -172,7 +180,7 @@ def _kd_limit(process: Process, M: float) -> float:
     return (C - R) * abs(process.den[0] / process.num[0])
 
 
-def _grid(process: Process, gains: np.ndarray, M: float, density: int) -> np.ndarray:
+def _grid(process: Process, scale: float, gains: np.ndarray, M: float, density: int) -> np.ndarray:
     """Frequencies dense enough to see every approach to the circle: 1.5 % apart, 0.2 rad apart in dead-time phase.
 
     density: so many times as dense.
@@ -180,7 +188,7 @@ def _grid(process: Process, gains: np.ndarray, M: float, density: int) -> np.nda
     It ends where |L| has faded below the circle's near end for all the gains (or 150 dead-time radians, where it
     does not fade: `_kd_limit` decides there).
     """
-    coarse = _reference(process) * np.logspace(-3, 2.5, 850 * density)
+    coarse = scale * np.logspace(-3, 2.5, 850 * density)
     if not process.delay:
         return coarse
     k, ki, kd = (np.max(abs(x)) for x in gains)
@@ -195,12 +203,14 @@ def _grid(process: Process, gains: np.ndarray, M: float, density: int) -> np.nda
     return np.union1d(coarse, fine)
 
 
-def _deepest(process: Process, gains: np.ndarray, M: float, density: int = 1) -> tuple[np.ndarray, np.ndarray]:
+def _deepest(
+    process: Process, scale: float, gains: np.ndarray, M: float, density: int = 1
+) -> tuple[np.ndarray, np.ndarray]:
     """The smallest clearance of each column of gains, shape (3, n), and the frequency where it occurs, (n,).
 
     The frequency is inf where the limit of the loop gain at high frequency decides.
     """
-    w = _grid(process, gains, M, density)
+    w = _grid(process, scale, gains, M, density)
     g = process(1j * w)
     C, R = circle(M)
     k, ki, kd = (x[:, None] for x in gains)
@@ -212,12 +222,12 @@ def _deepest(process: Process, gains: np.ndarray, M: float, density: int = 1) ->
     return np.where(beyond, -1.0, depth), np.where(beyond, math.inf, where)
 
 
-def _first_violation(process: Process, start: float, end: float, M: float) -> tuple[float, float, float]:
+def _first_violation(process: Process, scale: float, start: float, end: float, M: float) -> tuple[float, float, float]:
     """A bracket (feasible, infeasible) of touching frequencies on the branch, and where the curve enters the circle."""
     low, high, second = start, end, math.nan
     while high / low > 1.002:
         w = np.geomspace(low, high, 24)[1:]
-        depth, at = _deepest(process, smooth_branch(process, w, M), M)
+        depth, at = _deepest(process, scale, smooth_branch(process, w, M), M)
         bad = np.flatnonzero(depth < -TOLERANCE)
         if not bad.size:
             if math.isnan(second):
@@ -236,7 +246,7 @@ def _where_derivative_is(process: Process, kd: float, low: float, high: float, M
     return float(brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, rtol=1e-13))
 
 
-def _second_touch(process: Process, start: float, low: float, high: float, near: float, M: float):
+def _second_touch(process: Process, scale: float, start: float, low: float, high: float, near: float, M: float):
     """The touching frequencies w and w2 where the smallest clearance around w2 is exactly zero.
 
     Dead time brings the curve past the circle once a turn, and the grid may have seen the wrong turn first. So the
@@ -248,13 +258,32 @@ def _second_touch(process: Process, start: float, low: float, high: float, near:
         at_low, second = _local_clearance(process, low, near, M)
         if at_low <= 0:
             low, high = start, low
+        ends = [_local_clearance(process, x, near, M)[0] for x in (low, high)]
+        if not ends[0] > 0 > ends[1]:
+            return _bisected(process, scale, start, high, M)
         w = float(brentq(lambda x: _local_clearance(process, x, near, M)[0], low, high, rtol=1e-12))  # noqa: B023
         second = _local_clearance(process, w, near, M)[1]
-        depth, at = _deepest(process, smooth_branch(process, np.array([w]), M), M, density=8)
+        depth, at = _deepest(process, scale, smooth_branch(process, np.array([w]), M), M, density=8)
         if depth[0] >= -TOLERANCE:
-            break
+            return w, second
         near, high = float(at[0]), w
-    return w, second
+    return _bisected(process, scale, start, high, M)
+
+
+def _bisected(process: Process, scale: float, low: float, high: float, M: float) -> tuple[float, float]:
+    """The same by halving between a feasible and an infeasible touching frequency.
+
+    For a curve whose second touch grows out of the first one, where there is no clearance between them to solve for.
+    """
+    second = high
+    for _ in range(50):
+        middle = math.sqrt(low * high)
+        depth, at = _deepest(process, scale, smooth_branch(process, np.array([middle]), M), M, density=4)
+        if depth[0] < -TOLERANCE:
+            high, second = middle, float(at[0])
+        else:
+            low = middle
+    return low, second
 
 
 def _local_clearance(process: Process, w: float, near: float, M: float) -> tuple[float, float]:
