@@ -102,3 +102,20 @@ def agrees(document: str, label: str) -> bool:
             return False
         raise
     return one.lhs == other.lhs and sympy.simplify(one.rhs - other.rhs) == 0
+
+
+def plain(equality: Any) -> str:
+    """A derived equation in the notation of the printed ones.
+
+    >>> plain(derived("pid-report", "4.9"))
+    'yf[k] = (1 - p1)*y[k] + p1*yf[k-1]'
+    """
+    from derivations.listing import written
+
+    text = f"{written(equality.lhs)} = {written(equality.rhs)}"
+    return re.sub(r"\(t\{?k([+-]\d)?\}?\)", lambda match: f"[k{match[1] or ''}]", text)
+
+
+def comparisons(document: str, *labels: str) -> dict[str, tuple[bool, str]]:
+    """For each number the claim ``eq-<number>``: does the print agree, and the derived form as evidence."""
+    return {f"eq-{n}": (agrees(document, n), f"derived: `{plain(derived(document, n))}`") for n in labels}

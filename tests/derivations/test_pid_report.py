@@ -7,7 +7,7 @@ from derivations.labels import Labels
 from derivations.pid_report import EQUATIONS
 from derivations.pid_updates import saturation_residuals
 from loopbook import printed
-from loopbook.equations import EquationError, agrees, derived, eq, read
+from loopbook.equations import EquationError, agrees, comparisons, derived, eq, read
 
 REPORT = printed.load("pid-report")
 WRONG = {"4.4", "4.17"}
@@ -69,3 +69,9 @@ def test_reading_a_printed_formula_refuses_what_the_derivation_has_not():
         read("yf[k] = p1*yf[k-1] + (1 - p1)*y[k+1]", derived("pid-report", "4.9"))
     with pytest.raises(EquationError, match="q9 is not in the derived equation"):
         read("p1 = 1/(1 + q9/Tf)", derived("pid-report", "4.8"))
+
+
+def test_comparisons_give_claims_for_the_ledger():
+    claims = comparisons("pid-report", "4.4", "4.13")
+    assert claims["eq-4.4"] == (False, "derived: `p4 = h/Tt`")
+    assert claims["eq-4.13"] == (True, "derived: `Df[k] = p24*y[k-1] + p3*Df[k-1] - p24*y[k]`")
