@@ -66,6 +66,30 @@ def test_rebuilds_exactly_what_depends_on_it_and_says_why(two):
     assert two.exported == ["a/alone.html"] and "(rebuilt: its code)" in two.said
 
 
+def test_a_notebook_saved_while_it_is_built_is_built_as_it_was_and_then_again(bench):
+    path = bench.root / "notebooks/a/b.ipynb"
+    bench.write("a/b", TITLE, "1 + 1", "import shutil\nshutil.copy('later.json', 'b.ipynb');")
+    before = path.read_bytes()
+    bench.write("a/b", "# Saved again", "2 + 2")
+    path.rename(path.with_name("later.json"))
+    path.write_bytes(before)
+    assert bench.build().code == 0
+    assert len(bench.executed("a/b")["cells"]) == 3
+    assert bench.build().code == 0 and "(rebuilt: its code)" in bench.said
+    assert [c["source"] for c in bench.executed("a/b")["cells"]] == ["# Saved again", "2 + 2"]
+
+
+def test_a_module_saved_while_a_notebook_runs_is_not_taken_for_the_one_that_ran(bench):
+    bench.module("early.py", "X = 1\n")
+    bench.write(
+        "a/b", TITLE, "import early\nif early.X == 1:\n    open(early.__file__, 'a').write('X = 2\\n')\nearly.X"
+    )
+    assert bench.build().code == 0
+    assert bench.build().code == 0 and "(rebuilt: src/early.py)" in bench.said
+    assert bench.executed("a/b")["cells"][1]["outputs"][0]["data"]["text/plain"] == "2"
+    assert bench.build().code == 0 and bench.said == "1 notebook up to date\n"
+
+
 def test_prose_is_rendered_without_running(two, monkeypatch):
     from loopbook.pipeline import run
 

@@ -8,6 +8,7 @@ kernel used is known from the last run itself: it cannot use another file withou
 import json
 import os
 import sys
+from collections.abc import Iterable
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -73,35 +74,42 @@ def environment(project: Project) -> Prints:
     }
 
 
-def of_run(project: Project, source: Source, used: Prints) -> Prints:
-    """What the run of a notebook depends on. used: the files and folders of the last run, see `used_by`."""
+def of_run(project: Project, source: Source, used: Iterable[str], since: int | None = None) -> Prints:
+    """What the run of a notebook depends on.
+
+    used: the files and folders of the last run, see `used_by`. since: when the run began, in ns; a file that was
+    changed later was perhaps read before, so its hash is not taken and the next build runs the notebook again.
+    """
     prints = {"its code": source.hash_code(), **environment(project)}
     for name in RUNS:
         prints[f"loopbook.pipeline/{name}"] = hash_file(HERE / name)
     for name in used:
-        path = _path(project, name)
-        prints[name] = hash_folder(path) if name.endswith("/") else hash_file(path)
+        path = project.root / name  # an absolute name stays absolute
+        if name.endswith("/"):
+            prints[name] = hash_folder(path)
+        elif since is not None and path.exists() and path.stat().st_mtime_ns > since:
+            prints[name] = "changed during the run"
+        else:
+            prints[name] = hash_file(path)
     return prints
 
 
-def used_by(project: Project, source: Source, depends: dict[str, Any]) -> Prints:
+def used_by(project: Project, source: Source, depends: dict[str, Any]) -> list[str]:
     """From a kernel's report the files and folders to watch, named relative to the project; without the pipeline
     itself, whose parts `RUNS` and `EXPORTS` name."""
-    names = {}
+    names = set()
     for text in depends.get("modules", ()):
         path = Path(text)
         first_party = path.is_relative_to(project.root) or path.is_relative_to(PACKAGE.parent)
         if first_party and not path.is_relative_to(HERE):
-            names[_name(project, path)] = hash_file(path)
+            names.add(_name(project, path))
     for text, kind in depends.get("read", {}).items():
         path = Path(text)
         if path == source.path or path.is_relative_to(project.cache) or path.is_relative_to(HERE):
             continue
-        if kind == "folder":
-            names[_name(project, path) + "/"] = hash_folder(path)
-        elif "__pycache__" not in path.parts:
-            names[_name(project, path)] = hash_file(path)
-    return dict(sorted(names.items()))
+        if "__pycache__" not in path.parts:
+            names.add(_name(project, path) + ("/" if kind == "folder" else ""))
+    return sorted(names)
 
 
 def of_export(source: Source, ran: str, engine: str, format: str) -> Prints:
@@ -145,10 +153,6 @@ def differences(old: Prints | None, new: Prints) -> list[str]:
 
 def _name(project: Project, path: Path) -> str:
     return path.relative_to(project.root).as_posix() if path.is_relative_to(project.root) else path.as_posix()
-
-
-def _path(project: Project, name: str) -> Path:
-    return project.root / name  # an absolute name stays absolute
 
 
 def digest(value: Any) -> str:

@@ -148,6 +148,7 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
 
         if stamped:
             stamps.forget(project, notebook)
+        began = time.time_ns()
         ran = run(source, notebook.id, project, job.parameters, wanted.timeout)
         content, warnings = ran.content, [list(w) for w in ran.warnings]
         if ran.failure:
@@ -158,12 +159,12 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
             failure = Failure(**{**vars(ran.failure), "repeat": repeat(job)})
             return Done(notebook, 0, [failure], warnings, ran=True)
         used = fingerprint.used_by(project, source, ran.depends)
-        seconds, prints = ran.seconds, fingerprint.of_run(project, source, used)
+        seconds, prints = ran.seconds, fingerprint.of_run(project, source, used, since=began)
     else:
         content = json.loads(executed.read_bytes())
         plain = canonical(source.content, project.root, [c.id for c in source.cells])
         content = renew_prose(content, plain)
-        used, seconds = dict.fromkeys(job.stamp.used, ""), job.stamp.seconds
+        used, seconds = job.stamp.used, job.stamp.seconds
         prints, warnings = job.stamp.run, job.stamp.warnings
     found = [r.data() for r in harvest.records(content, notebook.id)]
     counts = dict(Counter(r["table"] for r in found))
@@ -183,7 +184,7 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
         atomic.write(executed, dump(content))
         stamps.save_records(project, notebook, found)
         digest = fingerprint.digest(found)
-        stamp = stamps.Stamp(prints, list(used), results, source.title, seconds, counts, digest, warnings, exports)
+        stamp = stamps.Stamp(prints, used, results, source.title, seconds, counts, digest, warnings, exports)
         stamps.save(project, notebook, stamp)
         atomic.remove(stamps.failed_path(project, notebook))
     return done

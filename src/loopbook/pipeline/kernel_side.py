@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
+WRITTEN: set[str] = set()
 READ: dict[str, str] = {}
 """Files opened for reading and folders listed below the project's root, by path: "file" or "folder"."""
 
@@ -65,15 +66,17 @@ def _noting(root):
             return  # what is imported is known from sys.modules
         if event in listing:
             READ[path] = "folder"
-        elif not (set(args[1] or "") & set("wax+") or (args[2] or 0) & WRITING):
+        elif set(args[1] or "") & set("wax+") or (args[2] or 0) & WRITING:
+            WRITTEN.add(path)
+        else:
             READ.setdefault(path, "file")
 
     return hook
 
 
 def report() -> dict[str, object]:
-    """What this kernel depended on: modules by file, and what `READ` holds."""
+    """What this kernel depended on: modules by file, and what `READ` holds without the files that it wrote itself."""
     files = {getattr(m, "__file__", None) for m in list(sys.modules.values())}
     installed = (sys.prefix + os.sep, sys.base_prefix + os.sep, os.path.dirname(os.__file__) + os.sep)
     modules = sorted(f for f in files if isinstance(f, str) and f.endswith(".py") and not f.startswith(installed))
-    return {"modules": modules, "read": dict(READ)}
+    return {"modules": modules, "read": {k: v for k, v in READ.items() if k not in WRITTEN}}

@@ -91,7 +91,7 @@ def run(
     one cell. Raises `kernels.Stopped` where the build was interrupted.
     """
     started = time.monotonic()
-    notebook = load_notebook_node(str(source.path))
+    notebook = load_notebook_node(nbformat.from_dict(source.content))  # as it was read, whatever the file says now
     if parameters:
         notebook.metadata.kernelspec = {"name": "loopbook", "language": "python", "display_name": "loopbook"}
         notebook = parameterize_notebook(notebook, dict(parameters), kernel_name="loopbook", language="python")
