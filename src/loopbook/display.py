@@ -142,6 +142,16 @@ def equation(expression: Any, label: str = "", document: str = "") -> Equation:
 
 
 @dataclass(frozen=True)
+class Listing:
+    """Program text or data to be read and copied: shown as it is, in a fixed-width font."""
+
+    text: str
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
+        return {"text/plain": self.text}
+
+
+@dataclass(frozen=True)
 class Figure:
     """A vector figure with its caption and the alternative text read to those who do not see it.
 

@@ -62,6 +62,19 @@ class Model:
             den = np.polymul(den, [T, 1.0])
         return Process((self.gain,), tuple(den), self.delay)
 
+    def latex(self) -> str:
+        """The transfer function as LaTeX, four digits."""
+        from loopbook.display import number
+
+        def text(value: float) -> str:
+            digits, e, power = number(value, 4).replace("−", "-").partition("e")
+            return rf"{digits} \cdot 10^{{{power}}}" if e else digits
+
+        factors = ["s"] * self.integrating + [f"(1 + {text(T)} s)" for T in self.lags]
+        below = factors[0].strip("()") if len(factors) == 1 else " ".join(factors)
+        fraction = rf"\frac{{{text(self.gain)}}}{{{below}}}"
+        return rf"G(s) = {fraction}" + (rf" e^{{-{text(self.delay)} s}}" if self.delay else "")
+
     @cached_property
     def upright(self) -> "Model":
         """The same model with a positive gain, for which the rules are written."""

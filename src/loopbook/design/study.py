@@ -13,6 +13,7 @@ from loopbook.design.model import Model, ModelError, from_identified, read_toml
 if TYPE_CHECKING:
     from loopbook.design.program import SampledProgram
     from loopbook.design.recommendation import Recommendation
+    from loopbook.display import Table
     from loopbook.identification.choice import Identified
     from loopbook.simulation import Simulation
 
@@ -159,3 +160,15 @@ class Study:
         settings = self.program.settings
         shifted = settings.changed(u_low=settings.u_low - u0, u_high=settings.u_high - u0)
         return limited.run(self.model, replace(self.program, settings=shifted), self.horizon, *self.steps)
+
+    @property
+    def best(self) -> list[evaluation.Evaluation]:
+        """The recommended loop and the next best for the aim, five at most."""
+        chosen = self.recommendation.chosen
+        return [chosen, *[e for e in self.recommendation.admitted if e is not chosen][:4]]
+
+    def summary(self) -> "Table":
+        """The design on one page."""
+        from loopbook.design.tables import summary
+
+        return summary(self)

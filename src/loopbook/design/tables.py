@@ -6,30 +6,85 @@ from collections.abc import Sequence
 from loopbook.design.candidates import Refused
 from loopbook.design.evaluation import Evaluation, Robustness
 from loopbook.design.program import GAINS, SampledProgram
+from loopbook.design.recommendation import Recommendation
+from loopbook.design.study import Study
 from loopbook.display import Table, number
-from loopbook.identification.choice import Identified
+from loopbook.identification.graphical import readings
 
 
 def _shown(value: float, digits: int = 3) -> str:
     return "–" if value is None or math.isnan(value) else number(value, digits)
 
 
-def assumptions(found: Identified) -> Table:
-    """What the record was taken to be."""
+def assumptions(study: Study) -> Table:
+    """What the record was taken to be, or where the model comes from."""
+    if study.identified is None:
+        return Table(
+            ["", "what was given"], [["1", f"A model: {study.model.source}. Nothing was fitted."]], "The model"
+        )
+    found = study.identified
     rows = [[str(i + 1), text] for i, text in enumerate((*found.record.assumptions, *found.steps.notes))]
     return Table(["", "what was assumed"], rows, "How the record was read", ["right", "left"])
 
 
-def fits(found: Identified) -> Table:
+def fits(study: Study) -> Table:
     """Every fitted structure with its parameters and 95 % intervals; the chosen one is marked."""
+    if study.identified is None:
+        return Table(["model"], [["given, not fitted"]], "Models")
+    found = study.identified
     rows, marks = [], []
     for structure, fit in found.fits.items():
         values = [f"{p.name} = {number(p.value, 4)} ± {number(p.half_width, 2)}" for p in fit.parameters]
-        rows.append([structure.name, ", ".join(values), number(fit.fit, 4), number(fit.rmse, 3),
-                     number(found.criteria[structure], 3)])  # fmt: skip
+        numbers = (number(fit.fit, 4), number(fit.rmse, 3), number(found.criteria[structure], 3))
+        rows.append([structure.name, ", ".join(values), *numbers])
         marks.append("good" if fit is found.chosen else "")
     heads = ["model", "parameters with 95 % intervals", "fit [%]", "rms residual", "Akaike, above the best"]
     return Table(heads, rows, "Models fitted to the record", ["left", "left", "right", "right", "right"], (), marks)
+
+
+def choice(study: Study) -> Table:
+    """Why this model, and what limits its use."""
+    if study.identified is None:
+        return Table(["model"], [["The model is taken as exact: the margins below know no uncertainty."]], "The choice")
+    found = study.identified
+    rows = [["reason", text] for text in found.reasons] + [["mind", text] for text in found.warnings]
+    marks = ["good"] * len(found.reasons) + ["note"] * len(found.warnings)
+    return Table(["", "the choice of the model"], rows, "Why this model", ["left", "left"], (), marks)
+
+
+def graphical(study: Study) -> Table:
+    """What the documents' graphical rules read off the first step."""
+    if study.identified is None:
+        return Table(["rule"], [["no record: nothing to read"]], "Graphical rules")
+    rows = [
+        [r.rule, r.source, ", ".join(f"{n} = {number(v, 4)}" for n, v in r.values.items()) or f"refuses: {r.reason}"]
+        for r in readings(study.identified.record)
+    ]
+    return Table(["rule", "source", "reads"], rows, "Graphical rules on the first step", ["left"] * 3)
+
+
+def recommendation(found: Recommendation) -> Table:
+    """The chosen setting with its reasons."""
+    rows = [[text] for text in found.reasons]
+    mark = "note" if found.compromise else "good"
+    caption = f"Recommended for the aim {found.aim.name}: {found.chosen.candidate.name}"
+    return Table(["reasons"], rows, caption, ["left"], (), [mark] + [""] * (len(rows) - 1))
+
+
+def summary(study: Study) -> Table:
+    """The design on one page: model, regulator, what to expect."""
+    e, program = study.recommendation.chosen, study.program
+    pid = e.candidate.pid
+    times = f"$T_i$ = {number(pid.Ti, 4)} s, $T_d$ = {number(pid.Td, 4)} s, $b$ = {number(pid.b, 3)}"
+    rows = [
+        ["process", f"${study.model.latex()}$"],
+        ["rule", f"{e.candidate.name}, for the aim {study.aim}"],
+        ["settings", f"$K$ = {number(pid.K, 4)}, {times}"],
+        ["sampling interval", f"{number(program.settings.h, 4)} s"],
+        ["robustness", f"$M_s$ = {number(e.Ms, 3)}, delay margin {number(e.delay_margin, 3)} s"],
+        ["set-point step", f"overshoot {number(e.overshoot, 3)} %, settling {number(e.settling, 3)} s"],
+    ]
+    return Table(["", "design"], rows, "The design in short", ["left", "left"])
 
 
 def settings(evaluations: Sequence[Evaluation]) -> Table:

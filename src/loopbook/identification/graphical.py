@@ -5,7 +5,7 @@ tangent and 63 %     pid-report, section 5.2.1: `loopbook.experiments.step.estim
 final tangent        pid-report, section 5.2.2, for integrating processes: `experiments.integrating_step.estimate`
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -15,7 +15,10 @@ from loopbook.identification.record import Record
 
 @dataclass(frozen=True)
 class Reading:
-    """What one rule reads off a record. values: by name (Kp or Kv, T, L); empty where the rule refuses, with the reason."""
+    """What one rule reads off a record.
+
+    values: by name (Kp or Kv, T, L); empty where the rule refuses, with the reason.
+    """
 
     rule: str
     source: str
@@ -52,8 +55,18 @@ def two_point(record: Record) -> dict[str, float]:
     return {"Kp": gain, "T": float(T_of(t1, t2)), "L": float(L_of(t1, t2))}
 
 
+def first_step(record: Record) -> Record:
+    """The part of a record up to its second step: what a graphical rule can read. A record of one step is unchanged."""
+    changes = np.flatnonzero(np.diff(record.u))
+    if len(changes) < 2:
+        return record
+    part = slice(0, int(changes[1]) + 1)
+    return replace(record, time=record.time[part], u=record.u[part], y=record.y[part])
+
+
 def readings(record: Record) -> list[Reading]:
-    """Every graphical rule on one record, with the reason where it refuses."""
+    """Every graphical rule on a record's first step, with the reason where it refuses."""
+    record = first_step(record)
     from loopbook.experiments import integrating_step, step
     from loopbook.experiments.data import DataError
     from loopbook.experiments.plant import ExperimentError

@@ -11,6 +11,19 @@ MOST = 6
 """How many responses one figure can hold and still be read."""
 
 
+def record_or_step(study: Any) -> Any:
+    """The record with its model, captioned; for a model that was given its step response."""
+    from loopbook.display import figure
+
+    if study.identified is not None:
+        caption = "The recorded output with the fitted model, the residuals, and the recorded input."
+        return figure(record(study.identified), caption, "Three panels over time: output and model, residuals, input.")
+    model = study.model
+    t = np.linspace(0.0, 8 * (model.delay + sum(model.lags)), 400)
+    drawn = curves({"output $y$": {"model": (t, model.process.step(t))}}, "Unit step response of the given model")
+    return figure(drawn, "The step response of the given model.", "A curve over time that starts after the dead time.")
+
+
 def record(found: Any) -> Any:
     """Input, output and the chosen model; below them the residuals. found: `identification.choice.Identified`."""
     import matplotlib.pyplot as plt
