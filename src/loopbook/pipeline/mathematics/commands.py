@@ -184,7 +184,7 @@ def _space(p: "Parser", token: Token) -> n.Node:
 
 def _font(p: "Parser", token: Token) -> n.Node:
     found = p.with_font(symbols.FONTS[token.text], token)
-    return found[0] if len(found) == 1 else n.Group(found)
+    return found[0] if len(found) == 1 and edges(found[0]) else n.Group(found)
 
 
 def _font_switch(p: "Parser", token: Token) -> None:

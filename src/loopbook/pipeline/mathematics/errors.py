@@ -40,5 +40,5 @@ def nearest(name: str, known: Iterable[str], prefix: str = "\\") -> str:
     >>> nearest("aplha", ["alpha", "beta"])
     ': did you mean \\\\alpha?'
     """
-    close = difflib.get_close_matches(name, list(known), n=2, cutoff=0.7)
+    close = difflib.get_close_matches(name, list(known), n=2, cutoff=0.65)
     return f": did you mean {' or '.join(prefix + c for c in close)}?" if close else ""

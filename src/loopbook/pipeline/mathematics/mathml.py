@@ -180,7 +180,7 @@ def _node(node: n.Node, cls: str, script: bool, spaces: tuple[float, float] = (0
             return _brace(node, script)
         case n.Stack():
             base = node.base
-            core = _node(base[0], cls, script, spaces) if len(base) == 1 else _row(base, script)
+            core = _node(base[0], cls, script, spaces) if _is_operator(node) else _row(base, script)
             return _around(core, node.under, node.over)
         case n.Arrow():
             return _around(_mo(node.char, "rel", spaces, extra=' stretchy="true"'), node.under, node.over, padded=True)

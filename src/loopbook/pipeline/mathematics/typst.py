@@ -22,7 +22,7 @@ _CLASS = {
 _NATURAL = {
     "ord": set("∞∂∇∅∀∃ℵ′/.@"),
     "bin": set("+−×⋅∓±∩∪∧∨⊕⊗∘"),
-    "rel": set("=<>≤≥≠≈≡≪≫∼∈∉⊂⊆→⇒⇔↦⟶⟹⟺"),
+    "rel": set(":=<>≤≥≠≈≡≪≫∼∈∉⊂⊆→⇒⇔↦⟶⟹⟺"),
     "punct": set(",;"),
     "open": set("([{⟨⌊⌈"),
     "close": set(")]}⟩⌋⌉"),
@@ -102,16 +102,19 @@ def _from(start: int, items: list[n.Node], found: list, before: str | None, styl
         if isinstance(item, n.Space):
             space = item.em + (space or 0.0)
             continue
-        if space is not None:
+        after_space = space is not None
+        if after_space:
             parts.append(_space(space + (gap(before, pair[0], "script" in style) if before and pair else 0.0)))
             space = None
         if isinstance(item, n.StyleSwitch):
             rest = _from(i + 1, items, found, before, item.style) or '""'
             return join([*parts, f"{_STYLE[item.style]}({rest})"])
-        elif before == "op" and pair and (own := _space_after_operator(item)) is not None:
+        if before == "op" and pair and not after_space and (own := _space_after_operator(item)) is not None:
             parts.append(_space(own))
         parts.append(_node(item, pair[0] if pair else "ord", style))
         before = pair[1] if pair else before
+        if after_space and before == "bin":
+            space = 0.0  # Typst takes an operator after an explicit space for a sign: both its spaces are ours to write
     if space is not None:
         parts.append(_space(space))
     return join(parts)
@@ -305,14 +308,16 @@ def _grid(node: n.Grid, style: str) -> str:
     rows = []
     for row in node.rows:
         cells = [
-            _cell(cell, node.align[j] if mixed or tagged else "", node.style, j and node.aligned and j % 2 == 0)
+            _cell(
+                [n.Space(2.0), *cell] if j and node.aligned and j % 2 == 0 else cell,
+                node.align[j] if mixed or tagged else "",
+                node.style,
+                row.space if j == 0 else 0.0,
+            )
             for j, cell in enumerate(row.cells)
         ]
-        if row.space and cells:
-            height = _em(max(0.0, row.space) + 0.3)
-            cells[0] += f"#std.box(width: 0pt, height: {height}, baseline: {height})"
         if tagged:
-            cells.append("&" + (_space(2.0) + string(row.tag.text) if row.tag else '""'))
+            cells.append(_cell([n.Space(2.0), n.Text(row.tag.text)] if row.tag else [], "l", "display"))
         rows.append(", ".join(cells) or '""')
     lines = [
         f"{name}: ({''.join(f'{i}, ' for i in at)})"
@@ -332,8 +337,8 @@ def _grid(node: n.Grid, style: str) -> str:
     return body
 
 
-def _cell(items: list[n.Node], align: str, style: str, spaced: bool) -> str:
-    body = f"{_STYLE[style]}({_list(items, style)})" if items else '""'
-    if spaced:
-        body = _space(2.0) + body
+def _cell(items: list[n.Node], align: str, style: str, space: float = 0.0) -> str:
+    """One cell. space: extra depth in em, from ``\\\\[6pt]``."""
+    strut = f"#std.box(width: 0pt, height: {_em(space + 0.3)}, baseline: {_em(space + 0.3)})" if space > 0 else ""
+    body = f"{_STYLE[style]}({_list(items, style)}{strut})" if items or strut else '""'
     return {"l": "&" + body, "r": body + "&"}.get(align, body)
