@@ -229,7 +229,8 @@ class Document:
             a, b = exact.get(id), from_inputs.get(id)
             shown = [_beside(x, value.printed) for x in (a, b)]
             if not self.compare:
-                rows.append([value.quantity, *shown, value.unit])
+                if any(shown):
+                    rows.append([value.quantity, *shown, value.unit])
                 continue
             verdict = value_verdict(value, a, b, explained.get(id))
             explain = value.reason if verdict in (READ, MISPRINT, DIFFERS) else ""
