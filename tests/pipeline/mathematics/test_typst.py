@@ -199,3 +199,10 @@ def test_boxed_formula_keeps_its_baseline_and_text_alternative(size):
     code = latex_to_typst(r"\boxed{x^2}")
     assert 'alt: "x^2"' in code
     assert size(code)[1] > 1.2
+
+
+def test_boxes_and_struts_are_as_tall_as_what_they_hold(height):
+    """In a line of text Typst makes tall formulas less tall; a box must not cut through its fraction."""
+    assert height(r"\boxed{\frac{a}{b}}") == pytest.approx(height(r"\dfrac{a}{b}") + 0.6, abs=0.02)
+    fraction = height(r"\left(\frac{a}{b}\right)")
+    assert height(r"\left(\vphantom{\frac{a}{b}}x\right)") == pytest.approx(fraction, rel=0.05)

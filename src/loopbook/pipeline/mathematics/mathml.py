@@ -324,7 +324,7 @@ def _cell(node: n.Grid, i: int, j: int, row: n.Row) -> str:
     if node.aligned and j and j % 2 == 0:
         left = 2.0
     right = 0.0 if j == len(row.cells) - 1 and not node.vlines else node.gap / 2
-    above = node.row_gap / 2
+    above = node.row_gap / 2 + 0.06
     style = f"{_aligned(align)};padding:{_em(above)} {_em(right)} {_em(above + max(0.0, row.space))} {_em(left)}"
     borders = [
         ("left", j in node.vlines),

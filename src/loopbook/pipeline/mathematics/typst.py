@@ -136,7 +136,8 @@ def _space_after_operator(node: n.Node) -> float | None:
 def _equation(items: list[n.Node], style: str) -> str:
     """A formula inside a box, which is text; tagged PDF wants a text alternative for it too."""
     alternative = string(text.emit(items) or "formula")
-    return f"#math.equation(alt: {alternative}, ${_STYLE[style]}({_list(items, style)})$)"
+    equation = f"math.equation(alt: {alternative}, ${_STYLE[style]}({_list(items, style)})$)"
+    return f"#{{set par(leading: 0em); {equation}}}"  # with a leading, Typst makes tall formulas in lines less tall
 
 
 def _node(node: n.Node, cls: str, style: str) -> str:
@@ -332,6 +333,8 @@ def _grid(node: n.Grid, style: str) -> str:
         *([f"augment: #({', '.join(lines)})"] if lines else []),
     ]
     body = f"mat({', '.join(options)}, {'; '.join(rows) or chr(34) * 2})"
+    if node.style == "script":
+        body = f"script({body})"  # the rows of a mat are at least as high as a parenthesis of the style around it
     if node.left or node.right:
         return _between(node.left, body, node.right)
     return body
