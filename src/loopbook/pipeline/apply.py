@@ -1,0 +1,94 @@
+"""One notebook on files of the reader's own: each file gets its run and its report, in parallel, nothing in the ledger.
+
+Notebook and file are copied into a folder of their own, so that the report names the file and not the machine's paths,
+and a notebook that writes something cannot touch the originals.
+"""
+
+import shutil
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from loopbook.pipeline import atomic
+from loopbook.pipeline.build import OK, Outcome, _cores, _finish, _work
+from loopbook.pipeline.console import Console
+from loopbook.pipeline.job import Job, Wanted, plan
+from loopbook.pipeline.parameters import assign
+from loopbook.pipeline.project import Notebook, Project, UsageError
+from loopbook.pipeline.source import read_source
+
+
+@dataclass(frozen=True)
+class Item:
+    """A file to run the notebook on, and where each format of its report goes."""
+
+    data: Path
+    outputs: dict[str, Path]
+
+
+def items(files: Sequence[Path], target: Path | None, name: str, formats: Sequence[str]) -> list[Item]:
+    """Where the reports go: beside each file as ``<file>-<name>.pdf``, into a folder, or for one file to a file.
+
+    target: None, a folder, or a file that ends in one of the formats. Raises UsageError for a file that is not there,
+    for a target of another ending, and for two files whose reports would have one name.
+    """
+    missing = [str(f) for f in files if not f.is_file()]
+    if missing:
+        raise UsageError(f"no such file: {', '.join(missing)}")
+    suffix = target.suffix.lstrip(".") if target is not None else ""
+    if target is not None and suffix and not target.is_dir():
+        if suffix not in ("pdf", "html", "ipynb"):
+            raise UsageError(f"{target}: a report ends in .pdf, .html or .ipynb")
+        if len(files) > 1:
+            raise UsageError(f"{target} is one file, {len(files)} reports are to be made: give a folder")
+        return [Item(files[0], {suffix: target.resolve()})]
+    stems = [f.stem for f in files]
+    if target is not None and len(set(stems)) < len(stems):
+        raise UsageError("two files of one name cannot share a folder of reports")
+    made = []
+    for file in files:
+        folder = file.parent if target is None else target
+        made.append(Item(file, {f: (folder / f"{file.stem}-{name}.{f}").resolve() for f in formats}))
+    return made
+
+
+def apply(
+    project: Project,
+    notebook: Path,
+    wanted: Sequence[Item],
+    parameters: Sequence[tuple[str, str]],
+    parameter: str = "data",
+    jobs: int | None = None,
+    timeout: float = 600,
+    console: Console | None = None,
+) -> Outcome:
+    """Run `notebook` once for each item, with `parameter` set to the item's file.
+
+    Raises UsageError before any kernel starts.
+    """
+    console = console or Console()
+    with tempfile.TemporaryDirectory(prefix="loopbook") as temporary:
+        todo: list[Job] = []
+        settings = Wanted(("pdf",), timeout=timeout)
+        for i, item in enumerate(wanted):
+            folder = Path(temporary) / str(i)
+            folder.mkdir()
+            copied = folder / f"{item.data.stem}.ipynb"
+            shutil.copyfile(notebook, copied)
+            shutil.copyfile(item.data, folder / item.data.name)
+            source = read_source(copied)
+            values = assign(source, [*parameters, (parameter, item.data.name)])
+            job = plan(project, Notebook(item.data.stem, copied, own=False), source, values, settings)
+            job.outputs = item.outputs
+            job.export_because = {format: ["asked for"] for format in item.outputs}
+            todo.append(job)
+        for path in sorted({p.parent for job in todo for p in job.outputs.values()}):
+            path.mkdir(parents=True, exist_ok=True)
+            atomic.writable(path)
+        done = _work(project, todo, settings, jobs or _cores(), console)
+        outcome = _finish(project, done, [f for d in done for f in d.failures], todo, console)
+    if outcome.code == OK:
+        for item in wanted:
+            console.line(f"      {', '.join(str(path) for path in item.outputs.values())}")
+    return outcome
