@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from loopbook.circle_transfer import CircleTransfer
 from loopbook.loop_transfer import LoopError, LoopTransfer
 
 CERTAIN = 1e-6
@@ -23,8 +24,8 @@ class Peak(NamedTuple):
     w: float
 
 
-class _Curve:
-    """W = k prod(s - z)/prod(s - p) exp(-L s): G itself or 1/G (then with a negative L)."""
+class _Axis:
+    """W = k prod(s - z)/prod(s - p) exp(-L s) on the imaginary axis: G itself or 1/G (then with a negative L)."""
 
     def __init__(self, loop: LoopTransfer, inverse: bool):
         num, den = (loop.den, loop.num) if inverse else (loop.num, loop.den)
@@ -42,6 +43,19 @@ class _Curve:
         """|1 + W|, infinite at a pole."""
         value = np.abs(1 + self(w))
         return np.where(np.isfinite(value), value, np.inf)
+
+    def grid(self) -> tuple[np.ndarray, float, float]:
+        """Where to search, beyond which nothing is left to find, and the best of the curve's two ends: value, w."""
+        sizes = [abs(r) for r in (*self.zeros, *self.poles) if abs(r) > 0]
+        pace = [1 / abs(self.delay)] if self.delay else []
+        low, high = 1e-3 * min([*sizes, *pace], default=1.0), 2 * max([*sizes, *pace], default=1.0)
+        ends = (_limit(self), np.inf), (float(self.distance(np.array([1e-12 * low]))[0]), 0.0)
+        best, at = min(ends)
+        for _ in range(400):
+            if _tail(self, high) >= min(best, 1.0) * (1 - CERTAIN) or high > 1e12 * low:
+                break
+            high *= 1.5
+        return np.concatenate([[0.0], np.geomspace(low, high, 200)]), best, at
 
     def slope(self, w: float) -> float:
         """A positive multiple of d|1 + W|/dw."""
@@ -67,7 +81,7 @@ def _distances(roots: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndar
     return np.hypot(re, outside), np.hypot(re, np.maximum(abs(a - im), abs(b - im)))
 
 
-def _tail(curve: _Curve, start: float) -> float:
+def _tail(curve: _Axis, start: float) -> float:
     """What |1 + W| cannot fall below beyond `start`, which exceeds every |root|."""
     excess = len(curve.zeros) - len(curve.poles)
     up = lambda roots: float(np.prod(1 + abs(roots) / start))  # noqa: E731
@@ -80,7 +94,7 @@ def _tail(curve: _Curve, start: float) -> float:
     return scale * down(curve.zeros) / up(curve.poles) - 1
 
 
-def _limit(curve: _Curve) -> float:
+def _limit(curve: _Axis) -> float:
     """The smallest value that |1 + W| comes near for w to infinity."""
     excess = len(curve.zeros) - len(curve.poles)
     if excess:
@@ -90,7 +104,38 @@ def _limit(curve: _Curve) -> float:
     return abs(1 + curve.num[0] / curve.den[0])
 
 
-def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float]:
+class Circle:
+    """W = G or 1/G on the unit circle, for sampled loops; w is the angle."""
+
+    def __init__(self, transfer: CircleTransfer):
+        self.transfer = transfer
+
+    def distance(self, a: np.ndarray) -> np.ndarray:
+        value = np.abs(1 + self.transfer(a))
+        return np.where(np.isfinite(value), value, np.inf)
+
+    def slope(self, a: float) -> float:
+        at = np.array(a)
+        value = complex(self.transfer(at))
+        return float((np.conj(1 + value) * value * complex(self.transfer.log_slope(at))).real)
+
+    def grid(self) -> tuple[np.ndarray, float, float]:
+        t = self.transfer
+        ends = [(float(self.distance(np.array(a))), float(a)) for a in (1e-9 * t.start, np.pi)]
+        return np.concatenate([[0.0], np.geomspace(t.start, np.pi, 200)]), *min(ends)
+
+    def bound(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        t = self.transfer
+        (z_near, z_far), (p_near, p_far) = (t.distances(roots, a, b) for roots in (t.zeros, t.poles))
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            most = abs(t.k) * z_far.prod(axis=0) / p_near.prod(axis=0)
+            least = abs(t.k) * z_near.prod(axis=0) / p_far.prod(axis=0)
+            pace = (abs(t.zeros)[:, None] / z_near).sum(axis=0) + (abs(t.poles)[:, None] / p_near).sum(axis=0)
+            local = self.distance((a + b) / 2) - most * (pace + abs(t.d)) * (b - a) / 2
+        return np.fmax(np.fmax(np.where(np.isfinite(local), local, -1.0), least - 1), 1 - most)
+
+
+def _polished(curve: "_Axis | Circle", a: float, b: float, w: float) -> tuple[float, float]:
     """(distance, w) at the minimum near w in [a, b]."""
     from scipy.optimize import brentq
 
@@ -100,22 +145,9 @@ def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float
     return float(curve.distance(np.array(w))), float(w)
 
 
-def _closest(curve: _Curve) -> tuple[float, float]:
-    """min |1 + W| over w >= 0 and where, to a certified relative 1e-6 and in fact to rounding."""
-    roots = np.concatenate([curve.zeros, curve.poles])
-    sizes = abs(roots[abs(roots) > 0])
-    pace = [1 / abs(curve.delay)] if curve.delay else []
-    low = 1e-3 * min([*sizes, *pace], default=1.0)
-    high = 2 * max([*sizes, *pace], default=1.0)
-    best, at = _limit(curve), np.inf
-    for _ in range(400):
-        if _tail(curve, high) >= min(best, 1.0) * (1 - CERTAIN) or high > 1e12 * low:
-            break
-        high *= 1.5
-    grid = np.concatenate([[0.0], np.geomspace(low, high, 200)])
-    at_zero = float(curve.distance(np.array([1e-12 * low]))[0])
-    if at_zero < best:
-        best, at = at_zero, 0.0
+def closest(curve: "_Axis | Circle") -> tuple[float, float]:
+    """min |1 + W| over the whole curve and where, to a certified relative 1e-6 and in fact to rounding."""
+    grid, best, at = curve.grid()
     a, b = grid[:-1], grid[1:]
     for _ in range(60):
         middle = (a + b) / 2
@@ -150,7 +182,7 @@ def sensitivity_peak(loop: LoopTransfer) -> Peak:
     """
     if loop.gain_at_infinity == np.inf:
         raise LoopError("the loop transfer has more zeros than poles: its sensitivity peak is no measure; filter it")
-    distance, w = _closest(_Curve(loop, inverse=False))
+    distance, w = closest(_Axis(loop, inverse=False))
     return _reciprocal(distance, w)
 
 
@@ -162,8 +194,15 @@ def complementary_peak(loop: LoopTransfer) -> Peak:
     """
     if not any(loop.num):
         return Peak(0.0, 0.0)
-    distance, w = _closest(_Curve(loop, inverse=True))
+    distance, w = closest(_Axis(loop, inverse=True))
     return _reciprocal(distance, w)
+
+
+def sampled_peaks(transfer: CircleTransfer) -> tuple[Peak, Peak]:
+    """Ms and Mt of a sampled loop, with the angle wh [rad] in the place of w."""
+    inverse = transfer.inverse() if transfer.k else None
+    Mt = _reciprocal(*closest(Circle(inverse))) if inverse else Peak(0.0, 0.0)
+    return _reciprocal(*closest(Circle(transfer))), Mt
 
 
 def _reciprocal(distance: float, w: float) -> Peak:

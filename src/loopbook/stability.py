@@ -125,9 +125,7 @@ def shifted(loop: LoopTransfer, sigma: float) -> LoopTransfer:
             total = np.polyadd(np.polymul(total, [1.0, -sigma]), [c])
         return total
 
-    with np.errstate(over="ignore"):
-        factor = np.exp(loop.delay * sigma)
-    return LoopTransfer(tuple(factor * moved(loop.num)), tuple(moved(loop.den)), loop.delay)
+    return LoopTransfer(tuple(np.exp(loop.delay * sigma) * moved(loop.num)), tuple(moved(loop.den)), loop.delay)
 
 
 def decay_rate(loop: LoopTransfer) -> float:
@@ -139,6 +137,8 @@ def decay_rate(loop: LoopTransfer) -> float:
         raise LoopError("the loop is unstable: nothing decays")
 
     def holds(sigma: float) -> bool:
+        if loop.delay * sigma > 500:  # exp would overflow, and no loop with dead time decays so fast
+            return False
         try:
             return unstable_roots(shifted(loop, sigma)) == 0
         except (LoopError, ValueError):

@@ -6,7 +6,7 @@ are choices; what `double-tank` prints as the outcome of a tool has them at pi/4
 
 from fractions import Fraction
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple
 
 from loopbook.forms import PidParallel
 from loopbook.process import Process
@@ -74,3 +74,49 @@ def pid(process: Process, w: Any, phase_margin: Any, zero: Any = None, pole: Any
     return PidParallel(
         **{name: float(value) for name, value in parameters(process, w, phase_margin, zero, pole).items()}
     )
+
+
+class Angles(NamedTuple):
+    """A controller read as angles at its crossover frequency: w [rad/s], margin, zero, lead, pole [rad], b = lead."""
+
+    w: float
+    margin: float
+    zero: float
+    lead: float
+    pole: float
+
+
+def angles_of(process: Process, controller: PidParallel) -> Angles:
+    """The crossover frequency of the loop and the angles of the controller's zeros and pole there.
+
+    zero is the smaller angle of the two zeros, lead the larger one. Raises RuleDoesNotApply where the zeros are
+    complex or the loop has not exactly one crossover frequency.
+    """
+    import numpy as np
+
+    from loopbook.loop import Loop
+
+    crossovers = Loop(process, controller).margins().gain_crossovers
+    zeros = np.roots(controller.transfer()[0])
+    if len(crossovers) != 1 or len(zeros) != 2 or np.iscomplex(zeros).any() or (zeros.real >= 0).any():
+        raise RuleDoesNotApply("angles are defined for two real negative zeros and one crossover frequency")
+    w = crossovers[0].w
+    zero, lead = sorted(float(x) for x in np.arctan(w / -zeros.real))
+    return Angles(w, float(np.radians(crossovers[0].phase_margin)), zero, lead, float(np.arctan(w / controller.N)))
+
+
+def crossover_range(
+    process: Process, name: str, printed: str, near: float, phase_margin: Any, zero: Any, pole: Any
+) -> tuple[Fraction, Fraction]:
+    """The crossover frequencies [rad/s] (from, to) for which the parameter `name` rounds to its printed digits.
+
+    By the parameter's slope at `near`, which must lie close (relative 1e-10).
+    """
+    from loopbook.ledger import last_place
+
+    w, step = Fraction(near), Fraction(near) / 10**10
+    value, after = (parameters(process, x, phase_margin, zero, pole, digits=40)[name] for x in (w, w + step))
+    slope = (after - value) / step
+    half = last_place(printed) / 2
+    ends = sorted(w + (Fraction(printed) + side * half - value) / slope for side in (-1, 1))
+    return ends[0], ends[1]

@@ -1,0 +1,141 @@
+"""The transfer function around a sampled loop on the unit circle: magnitude, phase, all crossovers.
+
+With z = exp(j a), 0 <= a <= pi, and polynomials in z^-1,
+
+    G = k z^-d prod(1 - z_i z^-1)/prod(1 - p_i z^-1)
+
+d/da log G is a sum over zeros and poles, and so is a bound on the second derivative over an interval, from the
+distances of the arc to them. Intervals are halved until that bound proves magnitude (or phase) monotone in each; then
+the values at its ends tell every crossing. This holds for fast sampling too, where all that matters happens close to
+z = 1 and polynomials in cos(a) would lose it to rounding.
+"""
+
+from collections.abc import Callable
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+ON_CIRCLE = 1e-9
+AT_ONE = 1e-7
+FINEST = 1e-10
+
+
+class CircleTransfer:
+    """num/den in z^-1, ascending coefficients; zeros and poles are their roots in z, given where they are known better
+    than the coefficients tell."""
+
+    def __init__(self, num: np.ndarray, den: np.ndarray, zeros: np.ndarray, poles: np.ndarray):
+        first = int(np.flatnonzero(num)[0]) if np.any(num) else 0
+        lead = int(np.flatnonzero(den)[0])
+        self.num, self.den = np.asarray(num, dtype=float), np.asarray(den, dtype=float)
+        self.k, self.d = float(self.num[first] / self.den[lead]), first - lead
+        self.zeros, self.poles = (np.where(abs(r - 1) < AT_ONE, 1.0, r) for r in map(np.asarray, (zeros, poles)))
+
+    def inverse(self) -> "CircleTransfer":
+        """den/num."""
+        return CircleTransfer(self.den, self.num, self.poles, self.zeros)
+
+    def __call__(self, a: np.ndarray) -> np.ndarray:
+        turned = np.exp(-1j * np.asarray(a, dtype=float))[..., None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.prod(1 - self.zeros * turned, axis=-1) / np.prod(1 - self.poles * turned, axis=-1)
+            return self.k * turned[..., 0] ** self.d * ratio
+
+    def log_slope(self, a: np.ndarray) -> np.ndarray:
+        """d/da log G: the real part is the slope of log|G|, the imaginary part that of the phase."""
+        turned = np.exp(-1j * np.asarray(a, dtype=float))[..., None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            parts = [(1j * r * turned / (1 - r * turned)).sum(axis=-1) for r in (self.zeros, self.poles)]
+        return parts[0] - parts[1] - 1j * self.d
+
+    def phase(self, a: np.ndarray) -> np.ndarray:
+        """The argument [rad], continuous in a but for jumps where a root lies on the circle."""
+        a = np.asarray(a, dtype=float)
+        start = 0.0 if self.k > 0 else -np.pi
+        return start - self.d * a + _turned(self.zeros, a) - _turned(self.poles, a)
+
+    def distances(self, roots: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of each root to the nearest and the farthest point of the arcs [a, b]; shapes (roots, arcs)."""
+        size, angle = abs(roots)[:, None], np.angle(roots)[:, None]
+        nearest = np.clip(angle, a, b)
+        farthest = np.where(abs(a - angle) > abs(b - angle), a, b)
+        near, far = (np.hypot(1 - size, 2 * np.sqrt(size) * np.sin((x - angle) / 2)) for x in (nearest, farthest))
+        turned_far = np.hypot(1 - size, 2 * np.sqrt(size) * np.sin(np.minimum(np.pi, abs(farthest - angle)) / 2))
+        return near, np.maximum(far, turned_far)
+
+    def curvature(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """What |d2/da2 log G| cannot exceed on [a, b]."""
+        total = np.zeros(len(a))
+        for roots in (self.zeros, self.poles):
+            near, _ = self.distances(roots, a, b)
+            with np.errstate(divide="ignore"):
+                total = total + (abs(roots)[:, None] / near**2).sum(axis=0)
+        return total
+
+    @cached_property
+    def start(self) -> float:
+        """An angle below which nothing but a pole or zero at z = 1 is felt."""
+        far = [abs(1 - r) for r in (*self.zeros, *self.poles) if abs(1 - r) > AT_ONE]
+        return 1e-4 * min([*far, 1.0])
+
+    def _monotone(self, part: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+        """Cuts of [start, pi] between which that part of log G is proved monotone, or which are finer than matters."""
+        a = np.concatenate([np.geomspace(self.start, np.pi, 60)])
+        axis = [abs(np.angle(r)) for r in (*self.zeros, *self.poles) if abs(abs(r) - 1) < ON_CIRCLE]
+        a = np.unique(np.concatenate([a, [x for x in axis if self.start < x < np.pi]]))
+        low, high, done = a[:-1], a[1:], [a]
+        while low.size:
+            middle = (low + high) / 2
+            slope = part(self.log_slope(middle))
+            open_ = (abs(slope) <= self.curvature(low, high) * (high - low) / 2) & (high - low > FINEST * high)
+            low, high, middle = low[open_], high[open_], middle[open_]
+            done.append(middle)
+            low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+        return np.unique(np.concatenate(done))
+
+    @cached_property
+    def gain_crossovers(self) -> np.ndarray:
+        """All angles in (0, pi) with |G| = 1, ascending."""
+        from scipy.optimize import brentq
+
+        cuts = self._monotone(np.real)
+        with np.errstate(divide="ignore"):
+            level = np.log(abs(self(cuts)))
+        found = [
+            brentq(lambda x: float(np.log(abs(self(np.array(x))))), a, b, xtol=1e-15 * b, rtol=1e-14)
+            for (a, b), (low, high) in zip(pairwise(cuts), pairwise(level), strict=True)
+            if np.isfinite(low) and np.isfinite(high) and low * high < 0
+        ]
+        return np.array(found)
+
+    @cached_property
+    def phase_crossovers(self) -> np.ndarray:
+        """All angles in [0, pi] with G real and negative, ascending; the ends where G is finite there."""
+        from scipy.optimize import brentq
+
+        found = []
+        for a, b in pairwise(self._monotone(np.imag)):
+            inner = a + 1e-13 * b, b - 1e-13 * b
+            turns = np.sort((self.phase(np.array(inner)) / np.pi - 1) / 2)
+            for k in np.arange(np.ceil(turns[0]), np.floor(turns[1]) + 1):
+                level = (2 * k + 1) * np.pi
+                ends = [float(self.phase(np.array(x))) - level for x in inner]
+                if ends[0] * ends[1] < 0:
+                    found.append(brentq(lambda x, c=level: float(self.phase(np.array(x))) - c, *inner, xtol=1e-15 * b))
+        ends = [x for x in (0.0, np.pi) if np.isfinite(v := self(np.array(x))) and v.real < 0 and abs(v) > 1e-12]
+        return np.unique(np.array([*(x for x in found if x < np.pi * (1 - 1e-9)), *ends]))
+
+
+def _turned(roots: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """arg(1 - r exp(-ja)) summed over the roots, continuous but for roots on the circle."""
+    total = np.zeros(np.shape(a))
+    for r in roots:
+        if abs(abs(r) - 1) < ON_CIRCLE:
+            x = a - np.angle(r)
+            total = total + np.where(x >= 0, np.pi / 2, -np.pi / 2) - x / 2
+        elif abs(r) < 1:
+            total = total + np.angle(1 - r * np.exp(-1j * a))
+        else:
+            total = total + np.angle(-r) - a + np.angle(1 - np.exp(1j * a) / r)
+    return total
