@@ -130,6 +130,16 @@ def test_table_of_sixty_columns_fails_by_name(make):
     assert "column 59" in words_of(make.html(make.notebook(make.code(table(60)))))
 
 
+def test_long_texts_in_a_table_are_wrapped(make):
+    words = "a statement that goes on for so long that its column has to wrap it, with $K_p (1 + T_d s)$ and `code(x)` "
+    rows = [["section 5.2.3", words * 2, words, "holds partly"], ["Figure 4.9 (caption)", "short", "x" * 60, "holds"]]
+    claims = Table(
+        ["place", "the document says", "computed", "verdict"], rows, "Claims", ["left"] * 4, [words], ["note", "good"]
+    )
+    source = comes_out(make, make.notebook(make.code(claims)), "holds partly")
+    assert "words: (" in source and "narrow: true" not in source
+
+
 def test_table_over_several_pages(make):
     comes_out(make, make.notebook(make.code(table(3, rows=300))), "column 2", "738.23")
 

@@ -213,7 +213,7 @@ def _source(
     told = ", ".join(literal(text) for text in (cover.title, cover.subtitle))
     rest = f"{literal(cover.author)}, {literal(cover.language)}, {cover.depth}, {top}"
     pieces = [IMPORT, f"#show: book.with({told}, ({lines}), {rest})"]
-    files = support_files()
+    files = dict(support_files())
     roman = 0
     for entry in bound:
         report = entry.report

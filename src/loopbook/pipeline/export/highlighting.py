@@ -1,7 +1,6 @@
-"""Code for the screen: classes of tokens by Pygments, the colours in the style sheet."""
+"""Code in runs of one colour, by Pygments, once for both formats; the colours themselves are in the templates."""
 
 import functools
-from html import escape
 from typing import Any
 
 _CLASSES = (
@@ -16,6 +15,7 @@ _CLASSES = (
     ("Name.Builtin", "f"),
     ("Name.Decorator", "f"),
 )
+_NAMES = {"ipython": "python", "ipython3": "python", "python3": "python", "py": "python"}
 
 
 @functools.cache
@@ -24,7 +24,7 @@ def _lexer(language: str) -> Any:
     from pygments.util import ClassNotFound
 
     try:
-        return get_lexer_by_name(language, stripnl=False, ensurenl=False)
+        return get_lexer_by_name(_NAMES.get(language, language), stripnl=False, ensurenl=False)
     except ClassNotFound:
         return None
 
@@ -35,22 +35,37 @@ def _class(token: Any) -> str:
     return next((css for prefix, css in _CLASSES if name.startswith(prefix)), "")
 
 
-def highlighted(code: str, language: str) -> str:
-    """Code as HTML, its tokens in spans; the same text where the language is unknown.
+@functools.lru_cache(maxsize=2000)
+def runs(code: str, language: str) -> tuple[tuple[str, str], ...]:
+    """The code cut into (class, text): c comment, s string, n number, k keyword, f name, "" other.
 
-    >>> highlighted("x = 1", "python")
-    'x = <span class="n">1</span>'
+    Nothing is cut where the language is "" or unknown.
+
+    >>> runs("x = 1", "python")
+    (('', 'x = '), ('n', '1'))
     """
     lexer = _lexer(language) if language else None
     if lexer is None:
-        return escape(code, quote=False)
-    parts: list[list[str]] = []
+        return (("", code),)
+    found: list[tuple[str, str]] = []
     for token, text in lexer.get_tokens(code):
-        css = _class(token)
-        if parts and parts[-1][0] == css:
-            parts[-1][1] += text
+        kind = found[-1][0] if found and text.isspace() else _class(token)
+        if found and found[-1][0] == kind:
+            found[-1] = (kind, found[-1][1] + text)
         else:
-            parts.append([css, text])
-    return "".join(
-        f'<span class="{c}">{escape(t, quote=False)}</span>' if c else escape(t, quote=False) for c, t in parts
-    )
+            found.append((kind, text))
+    return tuple(found)
+
+
+def lines(code: str, language: str) -> list[list[tuple[str, str]]]:
+    r"""The same, line by line.
+
+    >>> lines("x = 1\n# end", "python")
+    [[('', 'x = '), ('n', '1')], [('c', '# end')]]
+    """
+    rows: list[list[tuple[str, str]]] = [[]]
+    for kind, text in runs(code, language):
+        first, *rest = text.split("\n")
+        rows[-1].append((kind, first))
+        rows += [[(kind, line)] for line in rest]
+    return [[(kind, text) for kind, text in row if text] for row in rows]

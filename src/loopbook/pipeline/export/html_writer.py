@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass, field
 from html import escape
 
-from loopbook.pipeline.export.highlighting import highlighted
+from loopbook.pipeline.export.highlighting import runs
 from loopbook.pipeline.export.maths import as_mathml
 from loopbook.pipeline.export.model import (
     Anchor,
@@ -99,7 +99,8 @@ class HtmlWriter:
         return f'<div class="formula"{anchor}>{body}{label}</div>'
 
     def listing(self, block: Listing) -> str:
-        body = highlighted(block.text, block.language)
+        cut = ((kind, escape(text, quote=False)) for kind, text in runs(block.text, block.language))
+        body = "".join(f'<span class="{kind}">{text}</span>' if kind else text for kind, text in cut)
         told = f' role="group" aria-label="{_ROLES[block.role]}"' if block.role in _ROLES else ""
         return f'<pre class="{block.role}"{told}><code>{body}</code></pre>'
 

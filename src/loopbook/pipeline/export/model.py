@@ -263,9 +263,9 @@ def plain(nodes: list[Inline], math: str = "latex") -> str:
             case Math(latex) if math == "latex":
                 parts.append(f"${latex}$")
             case Math(latex):
-                from loopbook.pipeline.mathematics import latex_to_text
+                from loopbook.pipeline.export.maths import as_text
 
-                parts.append(latex_to_text(latex))
+                parts.append(as_text(latex))
             case Styled() | Link():
                 parts.append(plain(node.children, math))
             case Break():

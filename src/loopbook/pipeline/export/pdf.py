@@ -58,13 +58,9 @@ class ReportExporter(TemplateExporter):
 
 
 @functools.cache
-def _static(name: str) -> bytes:
-    return (TEMPLATES / "loopbook_pdf" / name).read_bytes()
-
-
 def support_files() -> dict[str, bytes]:
-    """The files beside main.typ that are the same for every report."""
-    return {name: _static(name) for name in ("report.typ", "code.tmTheme")}
+    """The file beside main.typ that is the same for every report."""
+    return {"report.typ": (TEMPLATES / "loopbook_pdf" / "report.typ").read_bytes()}
 
 
 def contents_depth(report: Report) -> int:

@@ -10,6 +10,7 @@ import struct
 from dataclasses import dataclass, field
 
 from loopbook.pipeline.export.breaking import pieces
+from loopbook.pipeline.export.highlighting import lines
 from loopbook.pipeline.export.maths import as_text, as_typst
 from loopbook.pipeline.export.model import (
     Anchor,
@@ -52,6 +53,8 @@ IMPORT = '#import "report.typ": ' + ", ".join(
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
 LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
+WIDE_CHARACTER = 5.6
+"""Points that a character in a table takes at most, on average."""
 TEXT_WIDTH = 453
 """Points between the margins of a page."""
 _STYLES = {
@@ -151,9 +154,15 @@ class TypstWriter:
         raise TypeError(f"no Typst form for {type(block).__name__}")
 
     def listing(self, block: Listing, keep: bool = False) -> str:
-        """Preformatted text. keep: a short one stays on the page of what follows it."""
+        """Preformatted text, cut where its colours change. keep: a short one stays on the page of what follows it."""
         kept = ", keep: true" if keep and block.text.count("\n") < 15 else ""
-        return f"#listing({literal(block.role)}, {literal(_language(block.language))}, {literal(block.text)}{kept})"
+        rows = ""
+        if block.language:
+            rows = ", ".join(
+                f"({''.join(f'({literal(kind)}, {literal(text)}),' for kind, text in row)})"
+                for row in lines(block.text, block.language)
+            )
+        return f"#listing({literal(block.role)}, {literal(block.text)}, ({rows}{',' if rows else ''}){kept})"
 
     def bullets(self, block: Bullets) -> str:
         items = ", ".join(f"[{self.item(item, block.tight)}]" for item in block.items)
@@ -232,7 +241,8 @@ class TypstWriter:
         id = f"{self.name} {self.tables}"
         where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.columns}, {grid.rows}, {grid.head_rows}"
-        table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), (\n{cells},\n))"
+        narrow = ", narrow: true" if _surely_fits(grid) else ""
+        table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), (\n{cells},\n){narrow})"
         return f"#landscape[{table}]" if id in self.turned else table
 
     def table_cell(self, cell: Cell) -> str:
@@ -308,11 +318,19 @@ def with_known_fonts(svg: bytes) -> bytes:
     return text.encode()
 
 
+def _surely_fits(grid: Grid) -> bool:
+    """Is the table narrow enough for the page by a generous estimate, so that it need not be measured?"""
+    widest = [0] * grid.columns
+    for cell in grid.cells:
+        if any(isinstance(node, Break | Picture) for node in cell.children):
+            return False
+        share = len(plain(cell.children, "text")) // cell.colspan + 2
+        for x in range(cell.x, cell.x + cell.colspan):
+            widest[x] = max(widest[x], share)
+    return sum(widest) * WIDE_CHARACTER < TEXT_WIDTH
+
+
 def _lines(latex: str) -> list[str]:
     """The pieces of a formula between possible line ends, each a formula: an operator at its start has two sides."""
     first, *rest = pieces(latex)
     return [first, *("{}" + part for part in rest)]
-
-
-def _language(name: str) -> str:
-    return {"ipython": "python", "ipython3": "python", "python3": "python", "py": "python"}.get(name, name)
