@@ -11,7 +11,23 @@ from loopbook.pipeline.mathematics.commands import COMMANDS, INFIX
 from loopbook.pipeline.mathematics.environments import LAYOUTS
 from loopbook.pipeline.mathematics.symbols import DELIMITERS, GREEK, SYMBOLS
 
-NAMES = sorted({*COMMANDS, *INFIX, *SYMBOLS, *GREEK, "left", "right", "middle", "tag", "limits", "end", "hline", "cr"})
+NAMES = sorted(
+    {
+        *COMMANDS,
+        *INFIX,
+        *SYMBOLS,
+        *GREEK,
+        "left",
+        "right",
+        "middle",
+        "tag",
+        "limits",
+        "end",
+        "hline",
+        "cr",
+        "tabularnewline",
+    }
+)
 ENVIRONMENTS = sorted({*LAYOUTS, "equation", "pmatrix*"})
 PUNCTUATION = list("{}{}{}[]()^_&'~%$#\\,;:.!?|/<>=+-*\"`@ \n09aZé°∑→α∞½ł\u0301\x00😀")
 

@@ -54,6 +54,7 @@ class Parser:
             "&": "& outside of a matrix or an aligned environment: write \\& for the character",
             "\\\\": "\\\\ outside of an environment: put the lines into \\begin{aligned} … \\end{aligned}",
             "\\cr": "\\cr outside of an environment",
+            "\\tabularnewline": "\\tabularnewline outside of an environment",
             "\\right": "\\right without \\left",
             "\\middle": "\\middle that is not directly between \\left and \\right",
             "\\end": "\\end without \\begin",
@@ -273,8 +274,10 @@ class Parser:
             return self.letters(Token("char", symbols.GREEK[name], token.position, token.end), single=True)
         if name in commands.COMMANDS:
             return commands.COMMANDS[name](self, token)
-        if token.is_command("\\", "cr", "right", "end", "middle", "hline"):
+        if token.is_command("\\", "cr", "tabularnewline", "right", "end", "middle", "hline"):
             raise self.leftover(token)
+        if token.is_command("tag", *commands.INFIX):
+            raise self.error(f"{token} cannot be an argument by itself: put the argument into braces", token)
         known = {*symbols.SYMBOLS, *symbols.GREEK, *commands.COMMANDS, *commands.INFIX, "left", "tag"}
         raise self.error(f"unknown command {token}{nearest(name, known)}", token)
 
