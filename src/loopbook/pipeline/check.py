@@ -92,14 +92,14 @@ def summary_lines(ledger: Ledger) -> list[str]:
 def _row_line(row: Row) -> str:
     where = f"{row['document']}, {row['place']}"
     if row["table"] == "value":
-        computed = row["exact"] or row["from_inputs"]
         what = f"{row['quantity']} = {row['printed']} {row['unit']}".rstrip()
-        got = f"; computed {_short(computed)}" if computed else ""
+        got = f"; computed {_short(row['exact'])}" if row["exact"] else ""
+        got += f"; from rounded inputs {_short(row['from_inputs'])}" if row["from_inputs"] else ""
         why = f": {row['reason']}" if row["reason"] else ""
-        return f"{row['verdict']:12} {where}: {what}{got}{why}"
+        return f"{row['verdict']:19} {where}: {what}{got}{why}"
     if row["table"] == "claim":
-        return f"{row['verdict']:12} {where}: {row['says']}: {row['evidence']}"
-    return f"{'misprint':12} {where}: {row['printed']} -> {row['corrected']}: {row['note']}"
+        return f"{row['verdict']:19} {where}: {row['says']}: {row['evidence']}"
+    return f"{'misprint':19} {where}: {row['printed']} -> {row['corrected']}: {row['note']}"
 
 
 def _short(number: str) -> str:
