@@ -103,17 +103,25 @@ class Program:
         lines += ["    " + _line(a) for a in self.after] + ["    wait for the next sample"]
         return "\n".join(lines)
 
+    def symbols(self) -> set[Symbol]:
+        """Every name the program uses."""
+        assigned = self.gains + self.before + self.after
+        return {a.target for a in assigned}.union(*(a.value.free_symbols for a in assigned))
 
-def _line(a: Assignment) -> str:
-    value = a.value
+
+def statement(a: Assignment) -> str:
+    """One assignment as program text."""
     if a.target == OUTPUT:
         text = "saturate(v, ulow, uhigh)"
-    elif isinstance(value, Piecewise):
-        text = f"{written(value.args[0].expr)} if u = v"
+    elif isinstance(a.value, Piecewise):
+        text = f"{written(a.value.args[0].expr)} if u = v"
     else:
-        text = written(value)
-    label = f"    ({a.equation})" if a.equation else ""
-    return f"{written(a.target)} = {text}{label}"
+        text = written(a.value)
+    return f"{written(a.target)} = {text}"
+
+
+def _line(a: Assignment) -> str:
+    return statement(a) + (f"    ({a.equation})" if a.equation else "")
 
 
 def in_variables(expr: Expr, gains: Mapping[Symbol, Symbol] | None = None) -> Expr:
