@@ -1,7 +1,8 @@
 """The numbers of the AMIGO rules, read back out of their expressions.
 
-Each constant is found as a limit, a coefficient or a root, not looked up where it was typed: a rule with a factor
-missing or two constants exchanged shows here, and so beside the printed constants. x stands for T/L.
+Each rule is brought into pure numbers first (gains times the process's gain, times over its dead time), then each
+constant is found as a limit, a coefficient or a root, not looked up where it was typed. A rule with a factor L left out
+does not become a pure number (UnitError); two constants exchanged show beside the printed ones.
 """
 
 from functools import cache
@@ -10,9 +11,26 @@ import sympy
 from sympy import Expr, Symbol
 
 from derivations import amigo
+from derivations.amigo import K_180, L_1, T_1, T_2, T_180, K_p, K_v, L, T, kappa
 
-x = Symbol("x", positive=True)
-UNIT = {amigo.K_p: 1, amigo.K_v: 1, amigo.L: 1, amigo.T: x, amigo.K_180: 1, amigo.T_180: 1}
+x, x_1, x_2 = (Symbol(name, positive=True) for name in ("x", "x_1", "x_2"))  # T/L, T_1/L_1, T_2/L_1
+
+
+class UnitError(ValueError):
+    """A rule's formula has not the unit that it must have: a factor is missing or too many."""
+
+
+def pure(expression: Expr, *allowed: Symbol) -> Expr:
+    """The expression with T = x L, T_1 = x_1 L_1 and T_2 = x_2 L_1, which must then hold only the allowed symbols.
+
+    >>> pure(T / L + 1, x)
+    x + 1
+    """
+    number = sympy.cancel(expression.subs({T: x * L, T_1: x_1 * L_1, T_2: x_2 * L_1}))
+    extra = number.free_symbols - set(allowed)
+    if extra:
+        raise UnitError(f"{expression} is no pure number: {', '.join(sorted(map(str, extra)))} remain")
+    return number
 
 
 def _at(expression: Expr, start: bool) -> Expr:
@@ -20,7 +38,7 @@ def _at(expression: Expr, start: bool) -> Expr:
     return sympy.limit(expression, x, 0 if start else sympy.oo)
 
 
-def _fraction(expression: Expr) -> tuple[list[Expr], list[Expr]]:
+def _fraction(expression: Expr) -> tuple[list[Expr], ...]:
     """Numerator and denominator as descending coefficients in x."""
     return tuple(sympy.Poly(part, x).all_coeffs() for part in sympy.fraction(sympy.cancel(expression)))
 
@@ -32,10 +50,9 @@ def pi_step() -> dict[str, Expr]:
     >>> pi_step()["pi-step-Ti-2"]
     13
     """
-    rule = amigo.pi_step()
-    K, Ti = rule.K.subs(UNIT), rule.Ti.subs(UNIT)
+    rule, integrating = amigo.pi_step(), amigo.pi_step_integrating()
+    K, Ti = pure(rule.K * K_p, x), pure(rule.Ti / L, x)
     (top, *_), (lead, middle, last) = _fraction(Ti - _at(Ti, True))
-    integrating = amigo.pi_step_integrating()
     return {
         "pi-step-K-1": _at(K, True),
         "pi-step-K-2": _at(K / x, False),
@@ -44,8 +61,8 @@ def pi_step() -> dict[str, Expr]:
         "pi-step-Ti-3": middle / lead,
         "pi-step-Ti-4": last / lead,
         "pi-step-b": rule.b_above,
-        "pi-integrating-K": integrating.K.subs(UNIT),
-        "pi-integrating-Ti": integrating.Ti.subs(UNIT),
+        "pi-integrating-K": pure(integrating.K * K_v * L),
+        "pi-integrating-Ti": pure(integrating.Ti / L),
     }
 
 
@@ -56,11 +73,10 @@ def pid_step() -> dict[str, Expr]:
     >>> pid_step()["pid-integrating-Ti"]
     8
     """
-    rule = amigo.pid_step()
-    K, Ti, Td = (e.subs(UNIT) for e in (rule.K, rule.Ti, rule.Td))
+    rule, integrating = amigo.pid_step(), amigo.pid_step_integrating()
+    K, Ti, Td = pure(rule.K * K_p, x), pure(rule.Ti / L, x), pure(rule.Td / L, x)
     (fast, slow), (shift, one) = _fraction(Ti)
     (gain, _), (lead, offset) = _fraction(Td)
-    integrating = amigo.pid_step_integrating()
     return {
         "pid-step-K-1": _at(K, True),
         "pid-step-K-2": _at(K / x, False),
@@ -70,9 +86,9 @@ def pid_step() -> dict[str, Expr]:
         "pid-step-Td-1": gain / lead,
         "pid-step-Td-2": offset / lead,
         "pid-step-b": rule.b_above,
-        "pid-integrating-K": integrating.K.subs(UNIT),
-        "pid-integrating-Ti": integrating.Ti.subs(UNIT),
-        "pid-integrating-Td": integrating.Td.subs(UNIT),
+        "pid-integrating-K": pure(integrating.K * K_v * L),
+        "pid-integrating-Ti": pure(integrating.Ti / L),
+        "pid-integrating-Td": pure(integrating.Td / L),
         "pid-good-K": rule.good["K"][1],
         "pid-good-Ti": rule.good["Ti"][1],
         "pid-good-Td": rule.good["Td"][1],
@@ -88,8 +104,8 @@ def pi_frequency() -> dict[str, Expr]:
     """
     rule = amigo.pi_frequency()
     return {
-        "pi-frequency-K": rule.K.subs(UNIT),
-        "pi-frequency-Ti": sympy.diff(1 / rule.Ti.subs(UNIT), amigo.kappa),
+        "pi-frequency-K": pure(rule.K * K_180),
+        "pi-frequency-Ti": sympy.diff(1 / pure(rule.Ti / T_180, kappa), kappa),
         "pi-frequency-kappa": rule.good["K"][1],
     }
 
@@ -101,8 +117,8 @@ def pid_frequency() -> dict[str, Expr]:
     >>> pid_frequency()["pid-frequency-Td-2"]
     19/20
     """
-    rule, kappa = amigo.pid_frequency(), amigo.kappa
-    K, Ti, Td = (e.subs(UNIT) for e in (rule.K, rule.Ti, rule.Td))
+    rule = amigo.pid_frequency()
+    K, Ti, Td = pure(rule.K * K_180, kappa), pure(rule.Ti / T_180, kappa), pure(rule.Td / T_180, kappa)
     return {
         "pid-frequency-K-1": K.subs(kappa, 0),
         "pid-frequency-K-2": -sympy.Poly(K, kappa).LC(),
@@ -122,12 +138,12 @@ def pid_combined() -> dict[str, Expr]:
     >>> pid_combined()["beta-3"]
     -7/10000
     """
-    rule, lags = amigo.pid_combined(), (amigo.T_1, amigo.T_2)
-    share = sum(lags) / (sum(lags) + amigo.L_1)
+    rule = amigo.pid_combined()
+    share = (T_1 + T_2) / (T_1 + T_2 + L_1)
     found = {}
-    for letter, expression in (("alpha", rule.K), ("beta", rule.ki), ("gamma", rule.kd / share)):
-        weights = sympy.Poly(sympy.cancel(expression.subs(amigo.K_p, 1)).subs(amigo.L_1, 1), *lags)
-        monomials = (1, *lags, lags[0] * lags[1])
+    for letter, number in (("alpha", rule.K), ("beta", rule.ki * L_1), ("gamma", rule.kd / share / L_1)):
+        weights = sympy.Poly(pure(number * K_p, x_1, x_2), x_1, x_2)
+        monomials = (1, x_1, x_2, x_1 * x_2)
         found |= {f"{letter}-{i}": weights.coeff_monomial(m) for i, m in enumerate(monomials, start=1)}
     return {**found, "combined-b": rule.b_above}
 
@@ -141,8 +157,7 @@ def pid_combined_integrating() -> dict[str, Expr]:
     """
     rule = amigo.pid_combined_integrating()
     found = {f"{name}-integrating": value for name, value in pid_combined().items() if name != "combined-b"}
-    for letter, expression in (("alpha", rule.K), ("beta", rule.ki), ("gamma", rule.kd)):
-        at = sympy.cancel(expression.subs({amigo.K_v: 1, amigo.L_1: 1}))
-        constant, slope = sympy.Poly(at, amigo.T_2).all_coeffs()[::-1]
+    for letter, number in (("alpha", rule.K * L_1), ("beta", rule.ki * L_1**2), ("gamma", rule.kd)):
+        constant, slope = sympy.Poly(pure(number * K_v, x_2), x_2).all_coeffs()[::-1]
         found |= {f"{letter}-2-integrating": constant, f"{letter}-4-integrating": slope}
     return {**found, "combined-b-integrating": rule.b_above}

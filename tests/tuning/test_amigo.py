@@ -1,9 +1,12 @@
 """The AMIGO rules: every printed constant, every printed output of figures 5.8 to 5.13, limits and refusals."""
 
 import math
+from dataclasses import replace
+from decimal import Decimal
 from fractions import Fraction
 
 import pytest
+import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -17,7 +20,7 @@ from loopbook.experiments.data import (
     StepData,
     TwoLagData,
 )
-from loopbook.ledger import rounds_to
+from loopbook.ledger import UNEXPLAINED, rounds_to, value_verdict
 from loopbook.printed import load
 from loopbook.tuning import RuleDoesNotApply, amigo
 
@@ -39,6 +42,37 @@ def test_every_constant_is_printed():
 @pytest.mark.parametrize("name", sorted(CONSTANTS))
 def test_constant_as_printed(name):
     assert Fraction(int(CONSTANTS[name].p), int(CONSTANTS[name].q)) == load("pid-report").values[name].fraction
+
+
+@pytest.mark.parametrize("name", sorted(CONSTANTS))
+def test_another_digit_would_be_seen(name):
+    value = load("pid-report").values[name]
+    altered = str(Decimal(value.printed) + Decimal(1).scaleb(Decimal(value.printed).as_tuple().exponent))
+    assert value_verdict(replace(value, printed=altered), CONSTANTS[name]) == UNEXPLAINED
+
+
+SLIPS = {
+    "L left out of K": ("pi_step", lambda r: {"K": r.K.subs(expressions.L, 1)}),
+    "L left out of Ti": ("pid_step", lambda r: {"Ti": r.Ti / expressions.L}),
+    "thresholds swapped": ("pid_step", lambda r: {"b_above": expressions.pi_step().b_above}),
+    "a digit of Td": ("pid_step", lambda r: {"Td": r.Td * sympy.Rational(6, 5)}),
+    "a power of kappa": ("pid_frequency", lambda r: {"K": r.K.subs(expressions.kappa**4, expressions.kappa**3)}),
+}
+
+
+@pytest.mark.parametrize("slip", SLIPS)
+def test_a_slip_in_a_rule_turns_a_constant_red(slip, monkeypatch):
+    """The constants are read back out of the expressions, so a slip there shows beside the print."""
+    name, change = SLIPS[slip]
+    rule = getattr(expressions, name)()
+    monkeypatch.setattr(expressions, name, lambda: replace(rule, **change(rule)))
+    try:
+        found = getattr(amigo_constants, name).__wrapped__()
+    except amigo_constants.UnitError as error:
+        assert slip.startswith("L left out") and "no pure number: L remain" in str(error)
+        return
+    printed = load("pid-report").values
+    assert any(value_verdict(printed[id], value) == UNEXPLAINED for id, value in found.items())
 
 
 FIGURES = {
