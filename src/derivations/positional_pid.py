@@ -14,6 +14,17 @@ h, Kp, Ti, Td = sp.symbols("h Kp Ti Td", positive=True)
 e, last, older, total, manual = sp.symbols("e last older total manual", real=True)
 """e(i), e(i-1), e(i-2) and the sum up to and including e(i); manual: the control signal in force before automatic."""
 z, s = sp.symbols("z s")
+NAMES = {
+    Kp: "K_p",
+    Ti: "T_i",
+    Td: "T_d",
+    e: "e_i",
+    last: "e_{i-1}",
+    older: "e_{i-2}",
+    total: r"\Sigma e",
+    manual: "u_m",
+}
+"""How the symbols are written in LaTeX; their own names are those of a program."""
 
 
 @cache

@@ -54,6 +54,20 @@ def test_an_unstable_change_is_worse_and_not_little():
         manual.cells(Loop(THIRD, PidStandard(2.0)), 1.1)
 
 
+def test_survey_counts_cells_rows_and_kinds():
+    found = manual.survey(2.0)
+    assert found.count(("Ti", "overshoot")) == len(found.examples) == 19
+    assert found.count() <= found.row("Td") <= found.count(("Td", "stability"))
+    kinds = found.by_kind(("Td", "stability"))
+    assert kinds["dead time"] == (0, 3) and sum(n for _, n in kinds.values()) == 19
+
+
+def test_recipe_needs_its_derivative_and_is_lost_on_dead_time():
+    assert manual.recipe(THIRD, 1.0, 0.0) == float("inf")
+    assert manual.recipe(THIRD, 1.0, 0.2) < 2
+    assert manual.recipe(Process.fopdt(1, 1, 1), 1.0, 0.2) == float("inf")
+
+
 def test_change_multiplies_one_setting_and_keeps_the_filter():
     pid = PidStandard(1.0, 2.0, 0.5, c=1.0, N=10)
     other = manual.changed(pid, "Td", 2.0)

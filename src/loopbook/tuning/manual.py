@@ -115,6 +115,47 @@ class Example:
     loop: Loop
 
 
+@dataclass(frozen=True)
+class Survey:
+    """The nine cells on every example, each setting in turn multiplied by `factor`."""
+
+    factor: float
+    examples: tuple[Example, ...]
+    found: tuple[dict[tuple[str, str], bool], ...]
+
+    def count(self, *chosen: tuple[str, str]) -> int:
+        """In how many loops all the chosen cells hold; without any: all nine."""
+        return sum(all(row[c] for c in chosen or CELLS) for row in self.found)
+
+    def row(self, setting: str) -> int:
+        """In how many loops the whole row of one setting holds."""
+        return self.count(*(c for c in CELLS if c[0] == setting))
+
+    def by_kind(self, cell: tuple[str, str]) -> dict[str, tuple[int, int]]:
+        """Kind of process -> (loops in which the cell holds, loops)."""
+        kinds = sorted({e.kind for e in self.examples})
+        rows = {k: [r[cell] for e, r in zip(self.examples, self.found, strict=True) if e.kind == k] for k in kinds}
+        return {kind: (sum(row), len(row)) for kind, row in rows.items()}
+
+
+@cache
+def survey(factor: float) -> Survey:
+    """All nine cells on all `examples`, for one factor > 1."""
+    return Survey(factor, examples(), tuple(cells(e.loop, factor) for e in examples()))
+
+
+def recipe(process: Process, share: float, derivative: float) -> float:
+    """Ms after the article's recipe: K = share Ku, Ti = Tu, Td = derivative Tu; infinite where the loop is unstable.
+
+    Ku, Tu: ultimate gain and period of the process, which must have them. share, derivative >= 0: numbers.
+    """
+    from loopbook.frequency import ultimate
+
+    point = ultimate(process)
+    Td = derivative * point.T180
+    return peak_sensitivity(Loop(process, PidStandard(share / point.K180, point.T180, Td, c=1.0, Tf=Td / 10)))
+
+
 def _pid(K: float, Ti: float, Td: float) -> PidStandard:
     """On the error, the derivative filtered with Td/10."""
     return PidStandard(K, Ti, Td, c=1.0, N=10.0)
