@@ -197,7 +197,7 @@ def place(A: sp.Expr, B: sp.Expr, P: sp.Expr, fixed: sp.Expr = sp.S.One, z: sp.S
     reduced = [_coefficients_of(poly.quo(common)) for poly in (A_prime, B_w, P_w)]
     n = Degrees(*(len(v) - 1 for v in (a, s, b, p)), common.degree())
     unknowns, matrix, right = _sylvester(*reduced, n)
-    determinant, values = _solve(matrix, right)
+    determinant, values = solve_system(matrix, right)
     design = PolePlacement(
         *(polynomial(v, z) for v in (a, b, s, p)),
         _from_poly(common, z), n, unknowns, matrix, right, determinant, dict(zip(unknowns, values, strict=True)), z,
@@ -239,8 +239,13 @@ def _sylvester(a: list, b: list, p: list, n: Degrees) -> tuple[tuple[sp.Symbol, 
     return (*c, *d), matrix, right
 
 
-def _solve(matrix: sp.Matrix, right: sp.Matrix) -> tuple[sp.Expr, list[sp.Expr]]:
-    """Determinant and solution, by fraction-free elimination in the ring of the symbols, then one division each."""
+def solve_system(matrix: sp.Matrix, right: sp.Matrix) -> tuple[sp.Expr, list[sp.Expr]]:
+    """(determinant, solution) of a square system over the field of rational functions of its symbols.
+
+    matrix: (n, n), right: (n, 1), symbols and exact numbers. Fraction-free elimination in the polynomial ring of the
+    symbols, then one division for each unknown, so that every value is one fraction in lowest terms.
+    Raises PolePlacementError where numbers hide that the determinant is zero.
+    """
     if matrix.rows == 0:
         return sp.S.One, []
     M, rhs = DomainMatrix.from_Matrix(matrix).unify(DomainMatrix.from_Matrix(right))

@@ -249,10 +249,11 @@ class Document:
             }
             records.append(Record("value", self.id, value.place, id, verdict, fields))
         heads = ["quantity", "printed", "exact", "from inputs", "unit", "verdict"]
-        align = ["left", "right", "right", "right", "left", "left"]
+        long = any(" " in cell for row in rows for cell in row[1:4])  # digits in groups: let them wrap
+        align = ["left", *["left" if long else "right"] * 3, "left", "left"]
         if not self.compare:
             del heads[1], heads[-1], align[1], align[-1]
-        for empty in ("from inputs", "exact"):
+        for empty in ("from inputs", "exact", "unit"):
             column = heads.index(empty)
             if not any(row[column] for row in rows):
                 for row in (heads, align, *rows):
@@ -356,9 +357,9 @@ def _grouped(digits: str) -> str:
     """More than 17 digits in a row in groups of ten, so that they can be compared and may wrap.
 
     >>> _grouped("-2361183241434822606848"), _grouped("8360")
-    ('-2361183241 4348226068 48', '8360')
+    ('−2361183241 4348226068 48', '8360')
     """
-    sign, row = ("-", digits[1:]) if digits.startswith("-") else ("", digits)
+    sign, row = ("−", digits[1:]) if digits.startswith("-") else ("", digits)
     if len(row) <= 17 or not row.isdigit():
         return digits
     return sign + " ".join(row[i : i + 10] for i in range(0, len(row), 10))
