@@ -103,7 +103,9 @@ class Robustness:
 
 def robustness(model: Model, candidate: Candidate, number: int = 20, seed: int = 0) -> Robustness:
     """Close the loop on models drawn from the confidence region."""
+    from loopbook.sensitivity_peaks import sensitivity_peak
+
     drawn = model.variations(number, seed)
     loops = [Loop(m.process, candidate.pid) for m in drawn]
-    peaks = [loop.margins().Ms.value for loop in loops if loop.is_stable]
+    peaks = [sensitivity_peak(loop.transfer).value for loop in loops if loop.is_stable]
     return Robustness(len(drawn), len(peaks), float(np.quantile(peaks, 0.95)) if peaks else math.nan)
