@@ -9,22 +9,22 @@ pdf = export_book(
 )
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from loopbook.pipeline.export.errors import ExportError, Problem
 from loopbook.pipeline.export.inline_text import read_inline
-from loopbook.pipeline.export.markdown import read_markdown
 from loopbook.pipeline.export.maths import problems
-from loopbook.pipeline.export.model import Block, Grid, Link, PageNumber, Report, ReportCell, Text, walk
+from loopbook.pipeline.export.model import Link, PageNumber, Report, walk
+from loopbook.pipeline.export.page import LinkedTable, Page, page_name, read_page
 from loopbook.pipeline.export.pdf import as_export_error, support_files
-from loopbook.pipeline.export.reading import Reading
-from loopbook.pipeline.export.report import collect_anchors, level_headings, number_blocks, read, settle_links
-from loopbook.pipeline.export.tables import from_data
+from loopbook.pipeline.export.report import level_headings, number_blocks, read
 from loopbook.pipeline.export.typst_engine import TypstFailed, compile_turning, too_wide_table
 from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter, literal
+
+__all__ = ["Chapter", "LinkedTable", "Page", "export_book"]
 
 
 @dataclass(frozen=True)
@@ -41,29 +41,6 @@ class Chapter:
     part: str = ""
     document: str = ""
     assets: Path | None = None
-
-
-@dataclass(frozen=True)
-class LinkedTable:
-    """A table whose cells lead somewhere.
-
-    table: a `loopbook.display.Table` or its data. links: by (row, column), 0-based without the head, where the cell
-    leads: "notebook:double_tank/03_pole_placement#cell-7", or a URL. pages: cells shown as the number of the page
-    their link leads to.
-    """
-
-    table: Any
-    links: Mapping[tuple[int, int], str] = field(default_factory=dict)
-    pages: frozenset[tuple[int, int]] = frozenset()
-
-
-@dataclass(frozen=True)
-class Page:
-    """A chapter of the appendix. content: Markdown text, tables, or linked tables. name: as links call it."""
-
-    title: str
-    content: Sequence[Any]
-    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -118,7 +95,7 @@ def _bind(
     """Everything read and numbered, the anchors of each chapter, and the heading level of chapters."""
     if not chapters:
         raise ValueError("a book needs at least one chapter")
-    names = [chapter.name for chapter in chapters] + [_page_name(page) for page in appendix]
+    names = [chapter.name for chapter in chapters] + [page_name(page) for page in appendix]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise ValueError(f"a book has each name once; twice here: {', '.join(twice)}")
@@ -138,7 +115,7 @@ def _bind(
         bound.append(_Bound(report, str(number), chapter.part if chapter.part != part else ""))
         part = chapter.part
     for number, page in enumerate(appendix):
-        report = _page(page, strict_alt)
+        report = read_page(page, strict_alt)
         bound.append(_Bound(report, chr(ord("A") + number), appendix_title if parts and not number else ""))
     anchors = {entry.report.name: entry.report.anchors for entry in bound}
     found = []
@@ -150,45 +127,6 @@ def _bind(
         name = found[0][0]
         raise ExportError(name, [problem for where, problem in found if where == name])
     return bound, anchors, top
-
-
-def _page_name(page: Page) -> str:
-    return page.name or "appendix/" + page.title.lower().replace(" ", "_")
-
-
-def _page(page: Page, strict_alt: bool) -> Report:
-    """A page of the appendix as a report of one cell per piece of content."""
-    reading = Reading(strict_alt=strict_alt)
-    cells = []
-    for number, content in enumerate(page.content, start=1):
-        reading.cell = number
-        with reading.guard():
-            cells.append(ReportCell(number, _content(content, reading), f"cell-{number}"))
-    report = Report(_page_name(page), [Text(page.title)], "", cells)
-    collect_anchors(report, reading)
-    settle_links(report, reading)
-    if reading.problems:
-        raise ExportError(report.name, reading.problems)
-    return report
-
-
-def _content(content: Any, reading: Reading) -> list[Block]:
-    if isinstance(content, str):
-        return read_markdown(content, reading)
-    linked = content if isinstance(content, LinkedTable) else LinkedTable(content)
-    grid = from_data(linked.table if isinstance(linked.table, dict) else linked.table.data())
-    _link_cells(grid, linked)
-    return [grid]
-
-
-def _link_cells(grid: Grid, linked: LinkedTable) -> None:
-    cells = {(cell.y - 1, cell.x): cell for cell in grid.cells}
-    for place, url in linked.links.items():
-        cell = cells[place]
-        if place in linked.pages:
-            cell.children = [PageNumber(url.removeprefix("notebook:"))]
-        else:
-            cell.children = [Link(url, cell.children)]
 
 
 def _dead_links(report: Report, anchors: dict[str, set[str]]) -> list[Problem]:

@@ -64,7 +64,12 @@ class HtmlExporter(ReportExporter):
     def from_notebook_node(self, nb, resources=None, **kw):
         """The HTML text, and the resources."""
         resources = self._init_resources(resources)
-        report = self.report(nb, resources)
+        text = self.render(self.report(nb, resources))
+        resources["output_extension"] = self.file_extension
+        return text, resources
+
+    def render(self, report: Report) -> str:
+        """A report that is read, as one page. Raises ExportError."""
         found = problems(report, "mathml")
         if found:
             raise ExportError(report.name, found)
@@ -76,6 +81,4 @@ class HtmlExporter(ReportExporter):
             "contents": contents(report, HtmlWriter(report.name)),
             "escape": escape,
         }
-        text = self.template.render(**page)
-        resources["output_extension"] = self.file_extension
-        return text, resources
+        return self.template.render(**page)
