@@ -7,11 +7,12 @@ from loopbook.batch_study import Ratios
 from loopbook.plots.curves import COLOURS
 
 MARKERS = ("o", "s", "^", "v", "D", "P", "X", "*", "<")
+DECADES = 8.0  # from this spread on the axis is logarithmic
 NAMES = {"K": "$K/K_{MIGO}$", "Ti": "$T_i/T_{i,MIGO}$", "Td": "$T_d/T_{d,MIGO}$", "ki": "$k_i/k_{i,MIGO}$"}
 
 
 def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: float = 0.15) -> Any:
-    """One panel a parameter: its ratio to the optimum, logarithmic; grey band 1 +- `band`; families by marker."""
+    """One panel a parameter: its ratio to the optimum, grey band 1 +- `band`, families by marker."""
     import matplotlib.pyplot as plt
 
     rows = len(parameters)
@@ -23,7 +24,9 @@ def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: fl
             look = {"marker": MARKERS[family - 1], "color": COLOURS[(family - 1) % len(COLOURS)]}
             axis.plot(across, up, linestyle="none", markersize=4, markerfacecolor="none", label=str(family), **look)
         axis.axhspan(1 - band, 1 + band, color="0.9", zorder=0)
-        axis.set_yscale("log")
+        values = getattr(ratios, name)
+        if values.max() > DECADES * values.min():
+            axis.set_yscale("log")
         axis.set_ylabel(NAMES[name])
         axis.grid(True, linewidth=0.4, alpha=0.5)
     axes[0, 0].set_title(title)

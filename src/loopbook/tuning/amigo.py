@@ -212,6 +212,18 @@ def with_filter(data: Any, Tf: float) -> Any:
     return replace(data, **{n: float(adjusted[s].subs(amigo.T_f, Tf)) for n, s in symbols.items()})
 
 
+def decimals(expression: Any) -> Any:
+    """A rule's expression for the eye: fractions as the decimals they are, such as 0.35 for 7/20.
+
+    >>> from derivations.amigo import pi_step_integrating
+    >>> decimals(pi_step_integrating().Ti)
+    13.4*L
+    """
+    import sympy
+
+    return expression.replace(lambda e: e.is_Rational and not e.is_Integer, lambda e: sympy.Float(str(float(e))))
+
+
 def _from_step(name: str, data: Any, kind: type, data_to_numbers: Callable) -> Amigo:
     _expect(name, data, kind)
     _needs_dead_time(name, data.L)
