@@ -15,17 +15,26 @@ the edge where two frequencies bind at once, with erratic responses; the method 
 
 import math
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
-from loopbook.frequency import NoSuchFrequency, frequency_at, phase, response
+from loopbook.frequency import NoSuchFrequency, frequency_at, phase
 from loopbook.process import Process
 from loopbook.tuning import RuleDoesNotApply, Tuning
+from loopbook.tuning.migo_branch import (
+    M_DEFAULT,
+    TOLERANCE,
+    circle,
+    clearance,
+    deepest,
+    kd_limit,
+    local_clearance,
+    smooth_branch,
+)
+
+__all__ = ["M_DEFAULT", "Migo", "circle", "clearance", "is_stable", "pi", "pid", "smooth_branch"]
 
 SOURCE = "Åström, Panagopoulos, Hägglund (1998, 2002); pid-report, section 5.3"
-M_DEFAULT = 1.4
-TOLERANCE = 1e-7  # of the distance to the circle: what rounding may take off it
 
 
 @dataclass(frozen=True)
@@ -42,52 +51,6 @@ class Migo(Tuning):
     kd: float = 0.0
     touches: tuple[float, ...] = ()
     stable: bool = False
-
-
-@cache
-def circle(M: float) -> tuple[float, float]:
-    """Centre distance C and radius R of the joint circle around -C, for M > 1.
-
-    >>> circle(2.0)
-    (1.25, 0.75)
-    """
-    import sympy
-
-    from derivations import robustness
-
-    if not M > 1:
-        raise ValueError(f"M = {M}: a loop's largest sensitivity exceeds 1, so M must")
-    joint = robustness.joint_circle()
-    at = {robustness.M: sympy.Float(M, 30)}
-    return -float(joint.centre.subs(at)), float(joint.radius.subs(at))
-
-
-@cache
-def _branch_functions():
-    """k, ki and kd of the smooth branch as NumPy functions of (w, a, b, r, da, db, C, R)."""
-    import sympy
-
-    from derivations import robustness as d
-
-    found = d.smooth_branch()
-    arguments = (d.w, d.a, d.b, d.r, d.da, d.db, d.C, d.R)
-    return [sympy.lambdify(arguments, e, "numpy", cse=True) for e in (found.k, found.k_i.subs(d.k_d, 0), found.k_d)]
-
-
-def smooth_branch(process: Process, w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
-    """k, ki and kd, shape (3, *w.shape), for touching frequencies w [rad/s]."""
-    w = np.asarray(w, dtype=float)
-    g, slope = response(process, w)
-    arguments = (w, g.real, g.imag, abs(g), slope.real, slope.imag, *circle(M))
-    k, ki_of_pi, kd = (f(*arguments) for f in _branch_functions())
-    return np.array([k, ki_of_pi + w**2 * kd, kd])
-
-
-def clearance(process: Process, gains, w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
-    """|C + L(i w)| - R: negative inside the circle. gains: (k, ki, kd), each a number or broadcastable against w."""
-    k, ki, kd = gains
-    C, R = circle(M)
-    return abs(C + process(1j * w) * (k + 1j * (kd * w - ki / w))) - R
 
 
 def pi(process: Process, M: float = M_DEFAULT) -> Migo:
@@ -119,7 +82,7 @@ def pid(process: Process, M: float = M_DEFAULT) -> Migo:
     start = _pi_touch(process, scale, M)
     low, high, second = _first_violation(process, scale, start, _branch_end(process, start, M), M)
     if math.isinf(second):
-        w = _where_derivative_is(process, _kd_limit(process, M), low, high, M)
+        w = _where_derivative_is(process, kd_limit(process, M), low, high, M)
     else:
         w, second = _second_touch(process, scale, start, low, high, second, M)
     return _result(process, "MIGO PID", M, tuple(smooth_branch(process, np.array(w), M)), (w, second))
@@ -129,7 +92,7 @@ def _pi_touch(process: Process, scale: float, M: float) -> float:
     """The touching frequency of the PI optimum, once it is known to be feasible."""
     w = _pi_frequency(process, scale, M)
     k, ki, _ = smooth_branch(process, np.array(w), M)
-    worst, at = _deepest(process, scale, np.array([[k], [ki], [0.0]]), M)
+    worst, at = deepest(process, scale, np.array([[k], [ki], [0.0]]), M)
     if worst[0] < -TOLERANCE:
         raise RuleDoesNotApply(
             f"MIGO PI: the smooth optimum K = {k:.4g}, ki = {ki:.4g} enters the M = {M} circle at {at[0]:.4g} rad/s; "
@@ -172,62 +135,12 @@ def _branch_end(process: Process, start: float, M: float) -> float:
     return float(w[turned[0]] if turned.size else w[-1])
 
 
-def _kd_limit(process: Process, M: float) -> float:
-    """The largest kd where dead time turns a loop gain kd b0/a0 that does not fade: |L| <= (M-1)/M; else inf."""
-    if not process.delay or process.relative_degree > 1:
-        return math.inf
-    C, R = circle(M)
-    return (C - R) * abs(process.den[0] / process.num[0])
-
-
-def _grid(process: Process, scale: float, gains: np.ndarray, M: float, density: int) -> np.ndarray:
-    """Frequencies dense enough to see every approach to the circle: 1.5 % apart, 0.2 rad apart in dead-time phase.
-
-    density: so many times as dense.
-
-    It ends where |L| has faded below the circle's near end for all the gains (or 150 dead-time radians, where it
-    does not fade: `_kd_limit` decides there).
-    """
-    coarse = scale * np.logspace(-3, 2.5, 850 * density)
-    if not process.delay:
-        return coarse
-    k, ki, kd = (np.max(abs(x)) for x in gains)
-    far = np.logspace(-1, 4, 300) / process.delay
-    size = abs(process(1j * far)) * np.hypot(k, kd * far + ki / far)
-    C, R = circle(M)
-    loud = np.flatnonzero(size >= C - R)
-    end = min(far[loud[-1]] if loud.size else 0.0, 2000 / process.delay)
-    if math.isfinite(_kd_limit(process, M)):
-        end = 150 / process.delay
-    fine = np.arange(0.2 / density, 1 + end * process.delay, 0.2 / density) / process.delay
-    return np.union1d(coarse, fine)
-
-
-def _deepest(
-    process: Process, scale: float, gains: np.ndarray, M: float, density: int = 1
-) -> tuple[np.ndarray, np.ndarray]:
-    """The smallest clearance of each column of gains, shape (3, n), and the frequency where it occurs, (n,).
-
-    The frequency is inf where the limit of the loop gain at high frequency decides.
-    """
-    w = _grid(process, scale, gains, M, density)
-    g = process(1j * w)
-    C, R = circle(M)
-    k, ki, kd = (x[:, None] for x in gains)
-    room = abs(C + g * (k + 1j * (kd * w - ki / w))) - R
-    at = room.argmin(axis=1)
-    depth, where = room[np.arange(len(at)), at], w[at]
-    limit = _kd_limit(process, M)
-    beyond = gains[2] > limit
-    return np.where(beyond, -1.0, depth), np.where(beyond, math.inf, where)
-
-
 def _first_violation(process: Process, scale: float, start: float, end: float, M: float) -> tuple[float, float, float]:
     """A bracket (feasible, infeasible) of touching frequencies on the branch, and where the curve enters the circle."""
     low, high, second = start, end, math.nan
     while high / low > 1.002:
         w = np.geomspace(low, high, 24)[1:]
-        depth, at = _deepest(process, scale, smooth_branch(process, w, M), M)
+        depth, at = deepest(process, scale, smooth_branch(process, w, M), M)
         bad = np.flatnonzero(depth < -TOLERANCE)
         if not bad.size:
             if math.isnan(second):
@@ -255,15 +168,15 @@ def _second_touch(process: Process, scale: float, start: float, low: float, high
     from scipy.optimize import brentq
 
     for _ in range(5):
-        at_low, second = _local_clearance(process, low, near, M)
+        at_low, second = local_clearance(process, low, near, M)
         if at_low <= 0:
             low, high = start, low
-        ends = [_local_clearance(process, x, near, M)[0] for x in (low, high)]
+        ends = [local_clearance(process, x, near, M)[0] for x in (low, high)]
         if not ends[0] > 0 > ends[1]:
             return _bisected(process, scale, start, high, M)
-        w = float(brentq(lambda x: _local_clearance(process, x, near, M)[0], low, high, rtol=1e-12))  # noqa: B023
-        second = _local_clearance(process, w, near, M)[1]
-        depth, at = _deepest(process, scale, smooth_branch(process, np.array([w]), M), M, density=8)
+        w = float(brentq(lambda x: local_clearance(process, x, near, M)[0], low, high, rtol=1e-12))  # noqa: B023
+        second = local_clearance(process, w, near, M)[1]
+        depth, at = deepest(process, scale, smooth_branch(process, np.array([w]), M), M, density=8)
         if depth[0] >= -TOLERANCE:
             return w, second
         near, high = float(at[0]), w
@@ -278,26 +191,12 @@ def _bisected(process: Process, scale: float, low: float, high: float, M: float)
     second = high
     for _ in range(50):
         middle = math.sqrt(low * high)
-        depth, at = _deepest(process, scale, smooth_branch(process, np.array([middle]), M), M, density=4)
+        depth, at = deepest(process, scale, smooth_branch(process, np.array([middle]), M), M, density=4)
         if depth[0] < -TOLERANCE:
             high, second = middle, float(at[0])
         else:
             low = middle
     return low, second
-
-
-def _local_clearance(process: Process, w: float, near: float, M: float) -> tuple[float, float]:
-    """The smallest clearance within 10 % of the frequency `near`, and where; by zooming in and a final parabola."""
-    gains = smooth_branch(process, np.array(w), M)
-    span, centre = 1.1, near
-    for _ in range(5):
-        x = centre * np.geomspace(1 / span, span, 41)
-        room = clearance(process, gains, x, M)
-        i = int(np.clip(room.argmin(), 1, 39))
-        centre, span = x[i], span ** (1 / 8)
-    left, middle, right = room[i - 1 : i + 2]
-    bend = left - 2 * middle + right
-    return float(middle - (right - left) ** 2 / (8 * bend) if bend > 0 else middle), float(centre)
 
 
 def _result(process: Process, rule: str, M: float, gains: tuple[float, float, float], touches) -> Migo:
