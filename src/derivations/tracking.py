@@ -25,7 +25,7 @@ def recursion() -> Expr:
 @cache
 def pole() -> Expr:
     """Factor of I per sample in saturation or in manual: 1 - h / T_t. It must lie between -1 and 1: h < 2 T_t."""
-    return by_signals(recursion())[at("I")]
+    return by_signals(recursion())[at("I")].expand()
 
 
 @cache
