@@ -161,7 +161,7 @@ def conditional() -> Program:
     """Figure 4.7: derivative on e without filter; the integral moves only where the output is not limited."""
     slope = in_variables(discretise(derivative_on_error(), BACKWARD).rhs)
     before = (
-        Assignment(error, ysp - y),
+        Assignment(error, in_variables(term.sampled_error())),
         Assignment(P, K * error),
         Assignment(D, slope),
         _nominal(D),

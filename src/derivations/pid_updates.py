@@ -53,6 +53,12 @@ def saturation_residuals() -> tuple[Expr, ...]:
 
 
 @cache
+def sampled_error() -> Expr:
+    """e(t_k) = y_sp(t_k) - y(t_k)."""
+    return discretise(Eq(at("e"), law.error()), BACKWARD).rhs
+
+
+@cache
 def integral() -> Eq:
     """I(t_{k+1}) = I(t_k) + K h / T_i e(t_k): forward difference, section 4.2.2."""
     return update(law.rate(law.integral()), "I", FORWARD)
@@ -63,7 +69,7 @@ def integral_tracking() -> Term:
     """Eqs 4.3 to 4.5: forward difference of the integral with tracking, e written as y_sp - y."""
     raw = update(law.rate(law.integral_tracking()), "I", FORWARD)
     gains, short = name_gains(raw, {p3: at("e"), p4: at("u")})
-    return Term(gains, Eq(short.lhs, collect(short.rhs.subs(at("e"), at("y_sp") - at("y")), list(gains))))
+    return Term(gains, Eq(short.lhs, collect(short.rhs.subs(at("e"), sampled_error()), list(gains))))
 
 
 @cache

@@ -22,7 +22,7 @@ A = exp(-h / Tf)
 def test_laws_in_words():
     """P 4.1, I 4.5, D 4.7: the continuous laws written once more by hand."""
     y, ysp, e, u, v, yf = (Function(n)(t) for n in ("y", "y_sp", "e", "u", "v", "y_f"))
-    assert law.error() == ysp - y
+    assert law.error() == ysp - y, "eq. 4.5"
     assert law.proportional().rhs == K * (law.b * ysp - y), "eq. 4.1"
     assert law.rate(law.integral()).rhs == K * e / Ti, "eqs 4.3 to 4.5"
     assert law.rate(law.integral_tracking()).rhs == K * e / Ti + (u - v) / Tt, "eqs 4.3 to 4.5"
