@@ -15,7 +15,7 @@ from loopbook.loop_transfer import LoopError
 from loopbook.method_of_steps import ResponseError
 from loopbook.process import Process
 from loopbook.regulator import Regulator
-from loopbook.responses import _equation
+from loopbook.responses import loop_equation
 from loopbook.signals import HorizonError
 from loopbook.step_metrics import NotSettled
 
@@ -77,7 +77,7 @@ def stacked(equation, segments):
 @pytest.mark.parametrize("source", ["reference", "load", "noise"])
 def test_stacked_matrix_exponentials_agree(source):
     """A second method without polynomials: one matrix exponential for all segments at once."""
-    equation = _equation(TANK, TUNED.regulator(), source, None)
+    equation = loop_equation(TANK, TUNED.regulator(), source, None)
     second = stacked(equation, 10)
     response = Loop(TANK, TUNED).step(source, horizon=20)
     size_y, size_u = (abs(signal.peak()[1]) for signal in (response.y, response.u))
@@ -85,6 +85,31 @@ def test_stacked_matrix_exponentials_agree(source):
         _, u, y = second(t)
         assert abs(response.y(t) - y) < 2e-13 * size_y
         assert abs(response.u(t) - u) < 2e-13 * size_u
+
+
+tenth = st.integers(-20, 20).map(lambda k: k / 10)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.lists(st.integers(-15, 3).map(lambda k: k / 10), min_size=1, max_size=3),
+    st.lists(tenth, min_size=1, max_size=2),
+    st.integers(1, 30).map(lambda k: k / 10),
+    st.integers(1, 8).map(lambda k: k / 10),
+    st.integers(1, 5).map(lambda k: k / 10),
+    st.sampled_from(["reference", "load", "noise"]),
+)
+def test_stacked_matrix_exponentials_agree_on_random_loops(poles, num, delay, P, I, source):
+    """Stable, unstable and integrating processes, also such that act at once, over six dead times."""
+    process = Process(num[: len(poles) + 1], np.poly(poles), delay)
+    pid = PidParallel(P, I, 0.3 * P, 8.0)
+    response = Loop(process, pid).step(source, horizon=6 * delay)
+    second = stacked(loop_equation(process, pid.regulator(), source, None), 6)
+    size_y, size_u = (max(1e-300, abs(signal.peak()[1])) for signal in (response.y, response.u))
+    for t in np.array([0.1, 0.95, 1.5, 2.3, 3.7, 4.6, 5.9]) * delay:
+        _, u, y = second(t)
+        assert abs(response.y(t) - y) <= 1e-11 * size_y
+        assert abs(response.u(t) - u) <= 1e-11 * size_u
 
 
 def test_pade_of_rising_order_converges_to_ours():

@@ -26,7 +26,7 @@ def law(r: int, s: int, t: int, o: int = 0) -> Eq:
     """v(k) in the symbols r_1.., s_0.., t_0.., o_1.. for polynomials of the degrees given; o = 0 means A_o = 1.
 
     >>> law(1, 0, 0, 0)
-    Eq(v(k), t_0*r(k) - r_1*u(k - 1) - s_0*y(k))
+    Eq(v(k), -r_1*u(k - 1) - s_0*y(k) + t_0*r(k))
     """
     R = polynomial([1, *_symbols("r", 1, r)])
     S, T = polynomial(_symbols("s", 0, s)), polynomial(_symbols("t", 0, t))

@@ -18,6 +18,7 @@ from functools import cache
 import numpy as np
 
 from loopbook.signals import Signal
+from loopbook.state_space import balancing
 
 DEGREE = 24
 RESOLVED = 3e-14
@@ -44,13 +45,11 @@ class DelayEquation:
 
     def balanced(self) -> "DelayEquation":
         """The same equation in units of x and v in which the loop's matrix has rows and columns of one size."""
-        from scipy.linalg import matrix_balance
-
         n = len(self.A)
         if not n:
             return self
         loop = np.block([[self.A, self.b[:, None]], [self.C[:1], self.D[:1, None]]])
-        scale = matrix_balance(loop, permute=False, separate=True)[1][0]
+        scale = balancing(loop)
         x, v = scale[:n], scale[n]
         out = np.ones(len(self.C))
         out[0] = 1 / v

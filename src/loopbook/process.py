@@ -48,8 +48,8 @@ class Process:
     >>> tank = Process([1], [35, 12, 1], delay=2)
     >>> tank.static_gain, tank.order
     (1.0, 2)
-    >>> abs(tank(1j * 0.1))
-    0.7327535...
+    >>> round(float(abs(tank(1j * 0.1))), 6)
+    0.732743
     """
 
     num: tuple[float, ...]
@@ -195,7 +195,7 @@ class DelayedSum:
 
     Calling it evaluates the sum at complex s.
 
-    >>> DelayedSum((Process([1], [1, 1], 2), Process([1], [1], 0)))(0.0)
+    >>> float(DelayedSum((Process([1], [1, 1], 2), Process([1], [1], 0)))(0.0))
     2.0
     """
 

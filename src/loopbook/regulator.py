@@ -23,7 +23,7 @@ class Regulator:
     Raises ProcessError where R is zero or a coefficient is not a finite real number.
 
     >>> pi = Regulator.one_dof([2, 1], [1, 0])
-    >>> pi.feedback(1j)
+    >>> complex(pi.feedback(1j))
     (2-1j)
     """
 

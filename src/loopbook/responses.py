@@ -66,7 +66,7 @@ def _beside(process: Process, path: Process) -> tuple[StateSpace, bool]:
     return StateSpace(A, np.vstack([a.B, b.B]), np.hstack([a.C, b.C]), a.D + b.D), False
 
 
-def _equation(process: Process, regulator: Regulator, source: str, path: Process | None) -> DelayEquation:
+def loop_equation(process: Process, regulator: Regulator, source: str, path: Process | None) -> DelayEquation:
     """The loop as a delay equation with outputs (u + d, u, y); the first is what passes the dead time."""
     plant, shared = _beside(process, path or Process((0.0,), (1.0,)))
     if path is not None and not shared and (path.poles.real > -1e-12).any():
@@ -113,13 +113,13 @@ def closed_loop_step(
     if source not in INPUTS:
         raise ResponseError(f"source = {source!r}; one of {', '.join(INPUTS)}")
     if source != "disturbance":
-        _, u, y = solve(_equation(process, regulator, source, None), horizon)
+        _, u, y = solve(loop_equation(process, regulator, source, None), horizon)
         return y, u
     if path is None:
         raise ResponseError("a disturbance needs the path it takes to the output: Loop(process, regulator, path)")
     total: tuple[Signal, Signal] | None = None
     for term in path.terms if isinstance(path, DelayedSum) else (path,):
-        _, u, y = solve(_equation(process, regulator, source, term.rational), horizon)
+        _, u, y = solve(loop_equation(process, regulator, source, term.rational), horizon)
         pair = y.delayed(term.delay), u.delayed(term.delay)
         total = pair if total is None else (total[0] + pair[0], total[1] + pair[1])
     return total

@@ -178,7 +178,7 @@ def sensitivity_peak(loop: LoopTransfer) -> Peak:
     Raises LoopError on the border of stability, where it is infinite.
 
     >>> round(sensitivity_peak(LoopTransfer([1.0], [1, 0], 1.0)).value, 4)
-    2.7438
+    3.1293
     """
     if loop.gain_at_infinity == np.inf:
         raise LoopError("the loop transfer has more zeros than poles: its sensitivity peak is no measure; filter it")

@@ -9,6 +9,7 @@ The signal is zero before its first cell (the loop is at rest) and unknown after
 """
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -194,20 +195,19 @@ class Signal:
         return np.concatenate([t, self.edges[1:]]), np.concatenate([values, self._sides[1]])
 
     def maximum(self) -> tuple[float, float]:
-        """(time, value) of the largest value."""
+        """(time, value) of the largest value, the first of equal ones."""
         t, v = self.extremes()
-        return float(t[np.argmax(v)]), float(v.max())
+        return _first(t, v, v)
 
     def minimum(self) -> tuple[float, float]:
-        """(time, value) of the smallest value."""
+        """(time, value) of the smallest value, the first of equal ones."""
         t, v = self.extremes()
-        return float(t[np.argmin(v)]), float(v.min())
+        return _first(t, v, -v)
 
     def peak(self) -> tuple[float, float]:
-        """(time, value) of the largest magnitude; the value keeps its sign."""
+        """(time, value) of the largest magnitude, the first of equal ones; the value keeps its sign."""
         t, v = self.extremes()
-        i = int(np.argmax(np.abs(v)))
-        return float(t[i]), float(v[i])
+        return _first(t, v, np.abs(v))
 
     def integral(self) -> float:
         """The integral over all cells [unit s]."""
@@ -227,13 +227,19 @@ class Signal:
         return float(np.abs(pieces.coefficients[:, 0]) @ pieces.lengths)
 
 
+def _first(t: np.ndarray, v: np.ndarray, measure: np.ndarray) -> tuple[float, float]:
+    top = np.flatnonzero(measure >= measure.max() - 1e-13 * np.abs(v).max())
+    i = top[np.argmin(t[top])]
+    return float(t[i]), float(v[i])
+
+
 def _padded(rows: np.ndarray, other: Signal) -> np.ndarray:
     missing = other.coefficients.shape[1] - rows.shape[1]
     return np.pad(rows, ((0, 0), (0, max(missing, 0))))
 
 
+@cache
 def _sampling(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Gauss nodes and the matrix from values there to Legendre coefficients, exact below degree `count`."""
-    nodes, weights = legendre.leggauss(count)
-    vandermonde = legendre.legvander(nodes, count - 1)
-    return nodes, (vandermonde * weights[:, None]).T * (np.arange(count)[:, None] + 0.5)
+    nodes = legendre.leggauss(count)[0]
+    return nodes, np.linalg.inv(legendre.legvander(nodes, count - 1))

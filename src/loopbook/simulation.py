@@ -133,7 +133,7 @@ def simulate(
     ...         return 0.5 * (reference - y)
     >>> run = simulate(Process([1], [1, 0], delay=1.5), Half(), h=1.0, steps=4, reference=1.0)
     >>> run.y
-    array([0.   , 0.   , 0.25 , 0.75 , 1.1875])
+    array([0.    , 0.    , 0.25  , 0.75  , 1.1875])
     """
     if not (isinstance(steps, int | np.integer) and steps >= 1):
         raise SimulationError(f"steps = {steps!r}: a whole number of sampling intervals, 1 or more, is expected")

@@ -20,13 +20,23 @@ class StateSpace:
     D: np.ndarray
 
 
+def balancing(matrix: np.ndarray) -> np.ndarray:
+    """Powers of 2, shape (n,), with which M * scale / scale[:, None] has rows and columns of similar size.
+
+    Entries below 1e-40 of the largest count as zero: to balance them would scale everything else out of range.
+    """
+    from scipy.linalg import matrix_balance
+
+    size = np.abs(matrix).max(initial=0.0)
+    kept = np.where(np.abs(matrix) > 1e-40 * size, matrix, 0.0)
+    return matrix_balance(kept, permute=False, separate=True)[1][0]
+
+
 def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> StateSpace:
     """The outputs of several proper transfer functions nums[j]/den added up, with n = degree of den states.
 
     den, nums: descending coefficients; each num at most as long as den. Raises ValueError otherwise.
     """
-    from scipy.linalg import matrix_balance
-
     a = np.asarray(den, dtype=float)
     n = len(a) - 1
     if any(len(num) > n + 1 for num in nums):
@@ -39,6 +49,6 @@ def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> Stat
     A[:, :1] -= a[1:, None] if n else 0.0
     C = np.eye(1, n)
     if n:
-        A, (scale, _) = matrix_balance(A, permute=False, separate=True)
-        B, C = B / scale[:, None], C * scale
+        scale = balancing(A)
+        A, B, C = A * scale / scale[:, None], B / scale[:, None], C * scale
     return StateSpace(A, B, C, D)
