@@ -166,9 +166,12 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
         content = renew_prose(content, plain)
         used, seconds = job.stamp.used, job.stamp.seconds
         prints, warnings = job.stamp.run, job.stamp.warnings
-    found = [r.data() for r in harvest.records(content, notebook.id)]
+    records = harvest.records(content, notebook.id)
+    found = [r.data() for r in records]
     counts = dict(Counter(r["table"] for r in found))
     done = Done(notebook, 0, warnings=warnings, counts=counts, records=found, ran=bool(job.run_because))
+    if not stamped or wanted.output is not None:
+        done.failures += harvest.failing(records)  # a build that does not come before the ledger's judge
     results = fingerprint.digest([c.get("outputs") for c in content["cells"]])
     exports = {} if job.run_because else dict(job.stamp.exports)
     todo = job.outputs if job.run_because else {f: job.outputs[f] for f in job.export_because}
