@@ -157,8 +157,8 @@ def test_poles_of_the_design_and_errors():
     assert np.abs(double_tank(0.5).poles[abs(double_tank(0.5).poles) > 0.1] - 0.5).max() < 1e-4
     with pytest.raises(LoopError, match=r"unstable .a pole at"):
         double_tank(0.3).with_delay(1.0).margins()
-    with pytest.raises(LoopError, match="one of reference, load, output"):
-        double_tank(0.3).step("noise", 5)
+    with pytest.raises(LoopError, match="one of reference, load, noise, output"):
+        double_tank(0.3).step("sideways", 5)
 
 
 def test_a_loop_of_first_order_by_hand():

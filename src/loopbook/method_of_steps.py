@@ -186,7 +186,7 @@ def solve(system: DelayEquation, horizon: float) -> list[Signal]:
         if segments * (len(mesh) - 1) * (DEGREE + 1) * len(system.C) > MOST_VALUES:
             raise ResponseError(
                 f"the horizon {horizon:g} s holds {segments} dead times of {system.delay:g} s in {len(mesh) - 1} cells "
-                "each, more than can be stored: shorten the horizon"
+                "each, more than can be stored: shorten the horizon, or leave out a dead time as short as that"
             )
         with np.errstate(over="ignore", invalid="ignore"):
             values = _march(system, mesh, segments)

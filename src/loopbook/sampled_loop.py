@@ -138,9 +138,10 @@ class SampledLoop:
         return np.inf
 
     def step(self, source: str, steps: int, low: float = -np.inf, high: float = np.inf) -> Simulation:
-        """A unit step at t = 0 of "reference", "load" (at the process input) or "output" (added to the process output),
-        over `steps` sampling intervals, with the actuator's limits low, high known to the regulator.
+        """A unit step at t = 0 of "reference", "load" (at the process input), "noise" (on the measurement) or "output"
+        (added to the process output), over `steps` sampling intervals, with the actuator's limits low, high known to
+        the regulator.
         """
-        if source not in ("reference", "load", "output"):
-            raise LoopError(f"source = {source!r}; one of reference, load, output")
+        if source not in ("reference", "load", "noise", "output"):
+            raise LoopError(f"source = {source!r}; one of reference, load, noise, output")
         return simulate(self.process, self.regulator.controller(low, high), self.regulator.h, steps, **{source: 1.0})
