@@ -137,7 +137,7 @@ def decay_rate(loop: LoopTransfer) -> float:
         raise LoopError("the loop is unstable: nothing decays")
 
     def holds(sigma: float) -> bool:
-        if loop.delay * sigma > 500:  # exp would overflow, and no loop with dead time decays so fast
+        if loop.delay * sigma > 200:  # exp, squared, would overflow, and no loop with dead time decays so fast
             return False
         try:
             return unstable_roots(shifted(loop, sigma)) == 0
