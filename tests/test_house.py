@@ -18,7 +18,7 @@ LONG: dict[str, str] = {
     "loopbook/pipeline/mathematics/mathml.py": "one writer, a method for each node of the grammar",
 }
 NOTEBOOKS = {"nbformat", "nbconvert", "nbclient", "papermill", "IPython", "ipykernel", "jupyter_client", "jupyter_core"}
-SHARED = {"loopbook", "loopbook.display", "loopbook.ledger", "loopbook.printed"}
+SHARED = {"loopbook", "loopbook.display", "loopbook.glossary", "loopbook.ledger", "loopbook.printed"}
 OUTSIDE = {"loopbook.cli"}  # the command may reach for everything, when it is asked to
 
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from loopbook.pipeline import atomic, stamps, warm
+from loopbook.pipeline import atomic, pages, stamps, warm
 from loopbook.pipeline.console import Console
 from loopbook.pipeline.failures import Failure, everything, summary
 from loopbook.pipeline.job import Done, Job, Wanted, do, plan, repeat
@@ -58,7 +58,8 @@ def build(
     judged = [n for n in notebooks if n.own] if ledger and not parameters and wanted.output is None else []
     todo, broken = _plan(project, notebooks, parameters, wanted)
     complete = bool(judged) and len(judged) == len(project.notebooks())
-    if not broken and all(j.idle for j in todo) and not accept:
+    publishing = pages.publishes(project, complete, wanted.formats)
+    if not broken and all(j.idle for j in todo) and not accept and not (publishing and pages.reasons(project)):
         from loopbook.pipeline.judge import remembered
 
         verdict = remembered(project, judged, f"{complete} {frozen}")
@@ -87,6 +88,8 @@ def build(
             if complete and len(ran) < len(judged):
                 console.line("the ledger was not checked for completeness: not every notebook ran")
             write_manifest(project)
+        if publishing:
+            failures += pages.publish(project, console)
     return _finish(project, done, failures, todo, console)
 
 

@@ -30,6 +30,7 @@ RUNS = (
     "matplotlibrc",
 )
 EXPORTS = ("export", "mathematics")
+PAGES = (*EXPORTS, "pages")
 Prints = dict[str, str]
 
 
@@ -125,6 +126,13 @@ def of_export(source: Source, ran: str, engine: str, format: str) -> Prints:
     for name in _pictures(source):
         prints[name] = hash_file(source.path.parent / name)
     return prints
+
+
+def of_pages() -> Prints:
+    """The code that the pages made of all notebooks depend on."""
+    files = [path for folder in PAGES for path in _tree(HERE / folder)]
+    files += [HERE / "coverage.py", HERE / "harvest.py", PACKAGE / "display.py", PACKAGE / "ledger.py"]
+    return {path.relative_to(PACKAGE.parent).as_posix(): hash_file(path) for path in files}
 
 
 def _pictures(source: Source) -> list[str]:

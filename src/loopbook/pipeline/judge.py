@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from loopbook.pipeline import atomic, fingerprint, stamps
 from loopbook.pipeline.failures import Failure
 from loopbook.pipeline.project import Notebook, Project
+from loopbook.printed import PrintedDocument
 
 MEMORY = "verdict.json"
 
@@ -75,16 +76,20 @@ def judge(
 
 def _missing(project: Project, found: Iterable) -> list[Failure]:
     from loopbook.pipeline import harvest
-    from loopbook.printed import DOCUMENTS, PrintedDataError, load
+    from loopbook.printed import PrintedDataError
 
-    documents = []
-    for id in DOCUMENTS:
-        if (project.printed / id.replace("-", "_")).is_dir():
-            try:
-                documents.append(load.__wrapped__(id, project.printed))
-            except PrintedDataError as error:
-                return [Failure("", f"src/loopbook/printed: {error}", kind="check")]
-    return harvest.missing(found, documents)
+    try:
+        return harvest.missing(found, printed_documents(project))
+    except PrintedDataError as error:
+        return [Failure("", f"src/loopbook/printed: {error}", kind="check")]
+
+
+def printed_documents(project: Project) -> list[PrintedDocument]:
+    """What the project holds of the printed data, read anew. Raises PrintedDataError."""
+    from loopbook.printed import DOCUMENTS, load
+
+    there = [id for id in DOCUMENTS if (project.printed / id.replace("-", "_")).is_dir()]
+    return [load.__wrapped__(id, project.printed) for id in there]
 
 
 def _moved(change, frozen: bool) -> Failure:

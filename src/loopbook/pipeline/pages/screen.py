@@ -1,0 +1,94 @@
+"""reports/index.html and reports/ledger.html: the map and the ledger for the screen, complete in themselves."""
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from loopbook.ledger import MARKS
+from loopbook.pipeline.coverage import TABLES, VERDICTS, Count, by_document, total
+from loopbook.pipeline.export.html import style_sheet
+from loopbook.pipeline.export.html_writer import HtmlWriter
+from loopbook.pipeline.export.inline_text import read_inline
+from loopbook.pipeline.export.page import Page, export_page
+from loopbook.pipeline.ledger_files import FILES
+from loopbook.pipeline.pages.ledger import NAMES
+from loopbook.pipeline.pages.medium import as_sections
+from loopbook.pipeline.pages.parts import Outline
+
+TEMPLATES = Path(__file__).parent / "templates"
+ONE = {"values": "value", "statements": "statement", "misprints": "misprint"}
+
+
+def ledger_page(pages: Sequence[Page], title: str) -> bytes:
+    """The pages of the ledger as one. Raises ExportError."""
+    return export_page(Page("The ledger", as_sections(pages), "ledger"), title).encode()
+
+
+def index_page(
+    outline: Outline,
+    counts: Sequence[Count],
+    sections: Sequence[str],
+    versions: Mapping[str, str],
+    sizes: Mapping[str, int],
+) -> bytes:
+    """The map: the book, the ledger's sections, each notebook with its reports and verdicts, the versions.
+
+    sections: titles of the ledger's sections. sizes: of the files below ``reports/``, in bytes, by name; the ledger's
+    tables are listed where they are among them.
+    """
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    told: dict[str, Any] = {
+        "outline": outline,
+        "style": style_sheet(),
+        "documents": [(d.document, bars(d)) for d in [*by_document(counts), *_sum(counts)]],
+        "sections": [(title, title.replace(" ", "-")) for title in sections],
+        "versions": versions,
+        "size": lambda name: size(sizes[name]),
+        "tables": [name for name in FILES.values() if name in sizes],
+        "chips": chips,
+        "inline": lambda text: HtmlWriter().inline(read_inline(text)),
+        "escape": escape,
+    }
+    return environment.get_template("index.html.j2").render(**told).encode()
+
+
+def _sum(counts: Sequence[Count]) -> list[Count]:
+    return [total(counts)] if len(by_document(counts)) > 1 else []
+
+
+def chips(verdicts: Mapping[str, Mapping[str, int]]) -> list[tuple[str, list[tuple[str, str]]]]:
+    """The verdicts of one notebook: ("54 values", [("good", "32 reproduced"), …]) for each table that it has."""
+    rows = []
+    for table in TABLES:
+        given = verdicts.get(table, {})
+        number = sum(given.values())
+        if number:
+            name = ONE[NAMES[table]] if number == 1 else NAMES[table]
+            marks = [(MARKS[v], f"{given[v]} {v}") for v in VERDICTS[table] if given.get(v)]
+            rows.append((f"{number} {name}", marks))
+    return rows
+
+
+def bars(count: Count) -> list[tuple[str, list[tuple[str, str, str, int]]]]:
+    """For a document, for each table the verdicts as pieces of a bar: (mark, verdict, share in percent, number)."""
+    rows = []
+    for table in TABLES:
+        given = count.of(table)
+        number = sum(n for _, n in given)
+        if number:
+            pieces = [(MARKS[v], v, f"{100 * n / number:.2f}", n) for v, n in given]
+            rows.append((f"{number} {ONE[NAMES[table]] if number == 1 else NAMES[table]}", pieces))
+    return rows
+
+
+def size(number: int) -> str:
+    """
+    >>> size(999), size(45_600), size(1_234_567)
+    ('1 kB', '46 kB', '1.2 MB')
+    """
+    return f"{number / 1e6:.1f} MB" if number >= 1e6 else f"{max(1, round(number / 1e3))} kB"

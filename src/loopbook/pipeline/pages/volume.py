@@ -1,0 +1,37 @@
+"""reports/loopbook.pdf: every executed notebook as a chapter, the ledger and the glossary as the appendix."""
+
+import json
+from collections.abc import Sequence
+
+from loopbook.pipeline import stamps
+from loopbook.pipeline.export.book import Chapter, export_book
+from loopbook.pipeline.export.page import Page
+from loopbook.pipeline.pages.parts import Outline
+from loopbook.pipeline.project import Project
+
+
+def volume(project: Project, outline: Outline, appendix: Sequence[Page], lines: Sequence[str]) -> bytes:
+    """The book. lines: at the foot of the cover. Raises ExportError."""
+    notebooks = {n.id: n for n in project.notebooks()}
+    chapters = []
+    for part in outline.parts:
+        for entry in part.entries:
+            notebook = notebooks[entry["id"]]
+            chapters.append(
+                Chapter(
+                    notebook.id,
+                    json.loads(stamps.executed_path(project, notebook).read_bytes()),
+                    title=entry["title"],
+                    part=part.title,
+                    document=part.folder.replace("_", "-"),
+                    assets=notebook.path.parent,
+                )
+            )
+    return export_book(
+        chapters,
+        title=outline.title,
+        subtitle=outline.subtitle,
+        lines=lines,
+        appendix=appendix,
+        appendix_title="Ledger, glossary, index",
+    )
