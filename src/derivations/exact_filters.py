@@ -6,14 +6,13 @@ or that runs in a straight line (first-order hold). Compared with pid-report, eq
 
 from functools import cache
 
-from sympy import Add, Eq, Expr, Function, Symbol, diff, dsolve, exp, limit, log, simplify, symbols
+from sympy import Add, Eq, Expr, Function, Symbol, diff, dsolve, limit, log, simplify, symbols
 
 from derivations.differences import at, by_signals, h, t
 from derivations.pid_laws import K, Td
 from derivations.rc_filter import Tf, filter_law
 
 _start, _from, _to = symbols("start from to")
-a = exp(-h / Tf)
 
 
 def _after_one_sample(source: Expr) -> Expr:

@@ -5,7 +5,16 @@ from sympy import Rational, simplify
 
 from derivations import pid_code as code
 from derivations import tracking
-from derivations.bumpless import NEW, SETTINGS, jump, jump_after, keep_derivative, keep_p_plus_i, late_correction
+from derivations.bumpless import (
+    NEW,
+    SETTINGS,
+    jump,
+    jump_after,
+    keep_both_parts,
+    keep_derivative,
+    keep_p_plus_i,
+    late_correction,
+)
 from derivations.differences import h
 from derivations.pid_laws import K, Td, Ti, Tt, b
 from derivations.rc_filter import Tf
@@ -72,3 +81,16 @@ def test_tracking():
     assert tracking.exact_integral() == tracking.imposed - tracking.rest
     assert tracking.rule(Rational(1), Rational(4)) == 2
     assert tracking.rule_pi(Rational(4)) == 2
+
+
+def test_both_parts_are_kept_with_a_weight_on_the_derivative():
+    """D = x - p24 (y - c y_sp) is the same before and after; with c = 0 it is the update of figure 4.13."""
+    new = keep_both_parts()
+    named = {s.name: s for s in new[code.x].free_symbols}
+    old_d = code.x - named["p_24old"] * (y - named["c_old"] * code.ysp)
+    new_d = new[code.x] - named["p_24new"] * (y - named["c_new"] * code.ysp)
+    assert simplify(new_d - old_d) == 0, "figure 4.13"
+    without = new[code.x].subs({named["c_old"]: 0, named["c_new"]: 0})
+    assert simplify(without - keep_derivative("4.13")[code.x]) == 0
+    (before,) = (s for s in keep_p_plus_i().rhs.free_symbols if s.name == "I_old")
+    assert new[code.I] == keep_p_plus_i().rhs.subs(before, code.I), "eq. 4.10"
