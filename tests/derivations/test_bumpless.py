@@ -79,7 +79,7 @@ def test_tracking():
     assert simplify(tracking.bump() - K * Tt / Ti * tracking.error) == 0, "eq. 4.5"
     assert simplify(tracking.spike_effect() + h * tracking.spike / Tt) == 0, "eq. 4.5"
     assert tracking.exact_integral() == tracking.imposed - tracking.rest
-    assert tracking.rule(Rational(1), Rational(4)) == 2
+    assert tracking.rule(Rational(4), Rational(9)) == 6
     assert tracking.rule_pi(Rational(4)) == 2
 
 

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import Rational, Symbol, symbols
+from sympy import Rational, Symbol, simplify, symbols
 
 from derivations import pid_code as code
 from derivations.differences import h
@@ -130,6 +130,25 @@ def test_one_controller_sample_by_sample(setting, start, signals):
         runs[figure] = _play(program, gains, initial | {code.I: integral}, signals, Rational(-1), Rational(2))
     for figure in runs:
         assert runs[figure] == runs["4.9"], f"figure {figure} departs from figure 4.9"
+
+
+def test_the_weight_on_the_derivative_replaces_y_by_y_minus_c_ysp():
+    """v = K (b ysp - y) + I + x - p24 (y - c ysp), and x follows p4 (y - c ysp): eqs 4.16 to 4.20 with a weight c."""
+    program = code.weighted()
+    p24 = K * Td / (Tf + h)
+    passed = program.run(
+        {**program.gain_values(), code.u: code.u, **{s: s for s in (code.y, code.ysp, code.I, code.x)}}
+    )
+    slope = code.y - c * code.ysp
+    assert simplify(passed[code.v] - (K * (b * code.ysp - code.y) + code.I + code.x - p24 * slope)) == 0, "eq. 4.20"
+    update = Tf / (Tf + h) * code.x + K * Td * h / (Tf + h) ** 2 * slope
+    assert simplify(passed[code.x] - update) == 0, "eqs 4.16 and 4.17"
+
+
+def test_symbols_of_a_program():
+    names = {s.name for s in code.minimal().symbols()}
+    assert {"K", "T_i", "T_t", "p_4", "x", "I", "y", "y_sp", "u", "v", "u_low"} <= names
+    assert "D_f" not in names
 
 
 def test_other_starts_are_other_controllers():
