@@ -18,7 +18,7 @@ all: $(READY) ## run all notebooks and write all reports (the default)
 	@$(BIN)/loopbook build $(jobs)
 
 test: $(READY) ## run the whole test suite
-	@$(BIN)/python -m pytest -n auto
+	@$(BIN)/python -m pytest -n auto --dist loadgroup
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)

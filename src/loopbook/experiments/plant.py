@@ -13,7 +13,10 @@ from functools import cached_property
 import numpy as np
 
 from loopbook.identification.record import Record
+from loopbook.identification.steps import noise_level
 from loopbook.process import Process
+
+__all__ = ["Estimate", "ExperimentError", "Plant", "noise_level", "settling_horizon", "smooth"]
 
 
 class ExperimentError(ValueError):
@@ -151,9 +154,3 @@ def smooth(y: np.ndarray, window: int) -> np.ndarray:
     i = np.arange(len(y))
     a, b = np.maximum(i - window // 2, 0), np.minimum(i + window // 2 + 1, len(y))
     return (total[b] - total[a]) / (b - a)
-
-
-def noise_level(y: np.ndarray) -> float:
-    """The standard deviation of white noise on a smooth signal, from second differences (robust: their median)."""
-    bend = np.diff(y, 2)
-    return float(np.median(abs(bend)) / 0.6745 / math.sqrt(6)) if len(bend) else 0.0

@@ -6,10 +6,10 @@ final tangent        pid-report, section 5.2.2, for integrating processes: `expe
 """
 
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
+from loopbook.experiments.plant import smooth
 from loopbook.identification.record import Record
 
 
@@ -26,33 +26,20 @@ class Reading:
     reason: str = ""
 
 
-@cache
-def _two_point():
-    import sympy
-
-    from derivations import two_point_fit as fit
-
-    found = fit.fit_283_632()
-    parts = [float(fit.FRACTIONS[p]) for p in (fit.p1, fit.p2)]
-    return [sympy.lambdify((fit.t1, fit.t2), found[name]) for name in (fit.T, fit.T0)], parts
-
-
 def two_point(record: Record) -> dict[str, float]:
     """Kp, T and L from the instants at which 63.2 % and 28.3 % of the way are made, counted from the step.
 
     The final level is the mean of the last tenth of the record. Raises ExperimentError where the input is no single
-    step or the output does not settle.
+    step or the output does not settle, DataError where the response is faster at first than a lag.
     """
-    from loopbook.experiments import step
+    from loopbook.experiments import step, two_points
 
-    settled = step.estimate(record)  # refuses what has no final level
-    (T_of, L_of), parts = _two_point()
-    marks = settled.marks
+    marks = step.estimate(record).marks  # refuses what has no final level
     way = (record.y - marks["before"]) / (marks["after"] - marks["before"])
-    smooth = np.maximum.accumulate(np.convolve(np.pad(way, 2, "edge"), np.ones(5) / 5, "valid"))
-    t1, t2 = (float(np.interp(p, smooth, record.time)) - marks["t0"] for p in parts)
-    gain = (marks["after"] - marks["before"]) / marks["du"]
-    return {"Kp": gain, "T": float(T_of(t1, t2)), "L": float(L_of(t1, t2))}
+    rising = np.maximum.accumulate(smooth(way, 5))
+    t1, t2 = (float(np.interp(part, rising, record.time)) - marks["t0"] for part in two_points.PARTS)
+    model = two_points.fit((marks["after"] - marks["before"]) / marks["du"], t1, t2)
+    return {"Kp": model.Kp, "T": model.T, "L": model.L}
 
 
 def first_step(record: Record) -> Record:

@@ -60,7 +60,7 @@ def test_a_character_no_font_has_inside_a_drawing_is_refused_with_its_cell(make)
 
 
 def test_text_of_a_drawing_in_an_unknown_font_does_not_vanish(make):
-    from loopbook.pipeline.export.typst_writer import with_known_fonts
+    from loopbook.pipeline.export.svg_fonts import with_known_fonts
 
     plain = '<svg xmlns="http://www.w3.org/2000/svg"><text>words</text></svg>'
     styled = plain.replace("<text>", '<text style="font: 10px Helvetica, serif; fill: red">')

@@ -1,0 +1,46 @@
+"""The documents' graphical rules on records: exact on their own model, refusing what they cannot read."""
+
+import numpy as np
+import pytest
+
+from loopbook.identification import example
+from loopbook.identification.graphical import first_step, readings
+from loopbook.identification.models import FIRST_ORDER
+from loopbook.identification.record import Record, read_csv
+
+
+def made(noise=0.0, length=120.0):
+    time = np.arange(0.0, length, 0.1)
+    u = np.where(time >= 5, 2.0, 0.0)
+    y = 1.5 * FIRST_ORDER.response(time, [(float(time[np.argmax(u)]), 2.0)], (10.0,), 4.0)
+    return Record(time, u, y + np.random.default_rng(0).normal(0, noise, len(time)))
+
+
+@pytest.mark.parametrize(("noise", "tolerance"), [(0.0, 0.02), (0.01, 0.12)])
+def test_both_rules_find_a_first_order_model(noise, tolerance):
+    found = {r.rule: r.values for r in readings(made(noise))}
+    for rule in ("tangent and 63 %", "28.3 % and 63.2 %"):
+        assert found[rule]["Kp"] == pytest.approx(1.5, rel=0.01)
+        assert found[rule]["T"] == pytest.approx(10.0, rel=tolerance)
+        assert found[rule]["L"] == pytest.approx(4.0, rel=2 * tolerance)
+
+
+def test_a_response_that_has_not_settled_is_refused_with_the_reason():
+    found = {r.rule: r for r in readings(made(length=20))}
+    assert not found["28.3 % and 63.2 %"].values and "no steady state" in found["28.3 % and 63.2 %"].reason
+
+
+def test_only_the_first_step_is_read(tmp_path):
+    file = tmp_path / "example.csv"
+    file.write_text(example.text(), encoding="utf-8")
+    record = read_csv(file)
+    assert len(first_step(record).time) == 165 and first_step(made()).time[-1] == made().time[-1]
+    found = {r.rule: r.values for r in readings(record)}
+    assert found["tangent and 63 %"]["Kp"] == pytest.approx(2.4, rel=0.02)
+
+
+def test_the_shipped_example_is_the_made_one():
+    from pathlib import Path
+
+    shipped = Path(__file__).parents[2] / "notebooks" / "own_process" / "example.csv"
+    assert shipped.read_text(encoding="utf-8") == example.text()
