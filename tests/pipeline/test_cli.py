@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 
 import pytest
 from click.testing import CliRunner
@@ -84,7 +85,12 @@ def test_check_says_in_twenty_lines_what_holds_and_then_what_does_not(ledger):
 
 def test_check_of_one_place_shows_every_row(ledger):
     result = ledger("check", "double-tank", "table 5")
-    assert "rise time = 3.66 s" in result.output and "settling" in result.output and "stable" not in result.output
+    head, *rows = result.output.partition("\n\n")[2].splitlines()
+    assert re.split(r"  +", head) == ["quantity", "printed", "exact", "verdict", "why"]
+    assert sorted(re.split(r"  +", row) for row in rows) == [
+        ["rise time", "3.66 s", "3.6634", "reproduced"],
+        ["settling time", "9.9 s", "3.6634", "differs", "why"],
+    ]
 
 
 def test_check_of_an_unknown_place(ledger):

@@ -77,7 +77,9 @@ def test_the_index_leads_from_a_place_to_the_first_cell_of_each_section():
     records += [found("x", "claim", "holds", place="Table 2", cell=8)]
     _, table = ledger.index_page(PAPER, records)
     assert [row[0] for row in table.table.rows] == ["Table 2", "Table 10"]
-    assert list(table.links.values()) == ["notebook:double_tank/01#cell-8", "notebook:double_tank/01#cell-7"]
+    assert [row[1:3] for row in table.table.rows] == [["01", "Results"]] * 2
+    assert {table.links[0, 1], table.links[1, 1]} == {"notebook:double_tank/01"}
+    assert [table.links[y, 3] for y in (0, 1)] == ["notebook:double_tank/01#cell-8", "notebook:double_tank/01#cell-7"]
 
 
 def test_the_cover_counts_what_is_printed_and_what_was_found():

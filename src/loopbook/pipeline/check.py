@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import shutil
+import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -64,14 +65,35 @@ def read_ledger(project: Project) -> Ledger:
 
 
 def as_text(ledger: Ledger, whole: bool, width: int | None = None) -> str:
-    """A summary in at most twenty lines, then every row that is not reproduced; the whole rows where asked."""
-    width = width or shutil.get_terminal_size((120, 24)).columns
+    """A summary in at most twenty lines, then every row that is not reproduced; where asked, the whole as a table.
+
+    width: where lines are cut; default that of the terminal, and not at all where the output goes elsewhere.
+    """
+    if width is None and sys.stdout.isatty():
+        width = shutil.get_terminal_size((120, 24)).columns
     lines = summary_lines(ledger)
-    shown = ledger.rows if whole else [r for r in ledger.rows if r["verdict"] not in GOOD]
-    if shown:
-        lines += ["", "every row" if whole else "every row that is not reproduced, or does not hold:"]
-        lines += [_row_line(r)[:width] for r in shown]
-    return "\n".join(lines)
+    if whole:
+        values = [r for r in ledger.rows if r["table"] == "value"]
+        others = [_row_line(r) for r in ledger.rows if r["table"] != "value"]
+        for block in (_table(values) if values else [], others):
+            lines += ["", *block] if block else []
+    elif shown := [r for r in ledger.rows if r["verdict"] not in GOOD]:
+        lines += ["", "every row that is not reproduced, or does not hold:"]
+        lines += [_row_line(r) for r in shown]
+    return "\n".join(line[:width].rstrip() for line in lines)
+
+
+def _table(rows: Sequence[Row]) -> list[str]:
+    """Values in columns; one that no row fills is left out."""
+    heads = ["quantity", "printed", "exact", "from rounded inputs", "verdict", "why"]
+    cells = [
+        [r["quantity"], f"{r['printed']} {r['unit']}".rstrip(), _short(r["exact"]), _short(r["from_inputs"])]
+        + [r["verdict"], r["reason"]]
+        for r in rows
+    ]
+    columns = [c for c in zip(heads, *cells, strict=True) if any(c[1:])]
+    widths = [max(map(len, column)) for column in columns]
+    return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)) for row in zip(*columns, strict=True)]
 
 
 def summary_lines(ledger: Ledger) -> list[str]:

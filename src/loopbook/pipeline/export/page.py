@@ -12,7 +12,7 @@ from loopbook.pipeline.export.errors import ExportError
 from loopbook.pipeline.export.markdown import read_markdown
 from loopbook.pipeline.export.model import Block, Grid, Link, PageNumber, Report, ReportCell, Text
 from loopbook.pipeline.export.reading import Reading
-from loopbook.pipeline.export.report import collect_anchors, level_headings, settle_links
+from loopbook.pipeline.export.report import collect_anchors, level_headings, number_blocks, settle_links
 from loopbook.pipeline.export.tables import from_data
 
 
@@ -70,6 +70,7 @@ def export_page(page: Page, document: str = "") -> str:
     report = read_page(page)
     report.document = document
     level_headings(report.cells)
+    number_blocks(report.cells)
     return HtmlExporter().render(report)
 
 

@@ -15,7 +15,7 @@ from loopbook.pipeline.export.page import LinkedTable, Page
 from loopbook.pipeline.harvest import Found
 from loopbook.pipeline.ledger_files import natural
 from loopbook.pipeline.pages.errata import FALSE, HARMLESS, MISLEADS, Erratum, errata
-from loopbook.pipeline.pages.medium import At, Medium, at, beside, code, literal, short
+from loopbook.pipeline.pages.medium import Medium, To, at, beside, code, literal, short
 
 GOOD = {GIVEN, REPRODUCED, ROUNDED, READ, HOLDS}
 NAMES = {"value": "values", "claim": "statements", "misprint": "misprints"}
@@ -51,7 +51,7 @@ def sentences(counts: Sequence[Count]) -> list[str]:
     for table in TABLES:
         if not whole.printed[table]:
             continue
-        verdicts = ", ".join(f"{n} {_told(verdict, n)}" for verdict, n in whole.of(table))
+        verdicts = ", ".join(f"{n} {told(verdict, n)}" for verdict, n in whole.of(table))
         word = {"value": "printed values", "claim": "statements tested", "misprint": "misprints found"}[table]
         lines.append(f"{whole.printed[table]} {word}: {verdicts or 'none checked'}")
     if whole.unchecked:
@@ -59,7 +59,12 @@ def sentences(counts: Sequence[Count]) -> list[str]:
     return lines
 
 
-def _told(verdict: str, number: int) -> str:
+def told(verdict: str, number: int) -> str:
+    """The verdict as the verb of a number.
+
+    >>> told("holds partly", 2), told("fails", 1), told("reproduced", 3)
+    ('hold partly', 'fails', 'reproduced')
+    """
     words = verdict.split()
     verb = words[0] in ("holds", "fails", "differs") and number != 1
     return " ".join([words[0].removesuffix("s"), *words[1:]]) if verb else verdict
@@ -101,8 +106,8 @@ def coverage_page(counts: Sequence[Count]) -> Content:
 
 def _coverage_row(count: Count) -> list[str]:
     values, claims, misprints = (_number(count.printed[t]) for t in TABLES)
-    told = [", ".join(f"{n} {v}" for v, n in count.of(t)) for t in TABLES]
-    return [literal(count.place), values, told[0], claims, told[1], misprints]
+    verdicts = [", ".join(f"{n} {told(v, n)}" for v, n in count.of(t)) for t in TABLES]
+    return [literal(count.place), values, verdicts[0], claims, verdicts[1], misprints]
 
 
 def _number(number: int) -> str:
@@ -190,6 +195,11 @@ def reproduced_page(medium: Medium, found: Iterable[Found]) -> Content:
     """Every value that the computation gives, every input, every statement that holds."""
     good = [r for r in found if r.verdict in GOOD]
     content: Content = []
+    if good:
+        content.append(
+            "*exact* is computed from first principles at full precision; *from rounded inputs* by the document's own "
+            "chain of arithmetic, from its own rounded numbers, where only that gives the printed digits."
+        )
     for document in dict.fromkeys(r.document for r in _sorted(good)):
         here = [r for r in _sorted(good) if r.document == document]
         content.append(f"## {document}")
@@ -253,11 +263,17 @@ def index_page(medium: Medium, found: Iterable[Found]) -> Content:
                 key = (record.place, record.notebook, record.section)
                 met[key] = min(record, met.get(key, record), key=lambda r: r.cell)
         ordered = sorted(met.values(), key=lambda r: (natural(r.place), r.notebook, r.cell))
-        rows: list[list[str | At]] = [[literal(r.place), r.section, at(r)] for r in ordered]
-        columns = ["place", "taken up under", medium.where]
-        if not medium.paper:
-            rows = [[row[0], row[2]] for row in rows]
-            columns = ["place", "taken up under"]
-        align = ["left", "left", "right"][: len(columns)]
+        rows = [[literal(r.place), To(_short_name(r), r.notebook), *_section(medium, r), at(r)] for r in ordered]
+        columns = ["place", "notebook", *(["section"] if medium.paper else []), medium.where]
+        align = ["left", "left", "left", "right"] if medium.paper else ["left"] * 3
         content += [f"## {document}", medium.table(columns, rows, f"{document}: places", align)]
     return content
+
+
+def _short_name(found: Found) -> str:
+    """The notebook's name, with its folder where that is not the document's."""
+    return found.notebook.removeprefix(found.document.replace("-", "_") + "/")
+
+
+def _section(medium: Medium, found: Found) -> list[str]:
+    return [at(found).section] if medium.paper else []

@@ -26,6 +26,18 @@ class At:
         return f"notebook:{self.notebook}#cell-{self.cell}"
 
 
+@dataclass(frozen=True)
+class To:
+    """A cell of a table that shows its text and leads to a notebook."""
+
+    text: str
+    notebook: str
+
+    @property
+    def url(self) -> str:
+        return f"notebook:{self.notebook}"
+
+
 def at(found: Found) -> At:
     """Where a record stands; the words of its heading without their links."""
     return At(found.notebook, found.cell, re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", found.section))
@@ -49,13 +61,13 @@ class Medium:
     def table(
         self,
         columns: Sequence[str],
-        rows: Sequence[Sequence[str | At]],
+        rows: Sequence[Sequence[str | At | To]],
         caption: str,
         align: Sequence[str] = (),
         marks: Sequence[str] = (),
         once: int = 1,
     ) -> LinkedTable:
-        """A table of inline text with links where a cell is an `At`.
+        """A table of inline text with links where a cell is an `At` or a `To`.
 
         once: so many of the first columns show a text only where it changes.
         """
@@ -63,7 +75,10 @@ class Medium:
         for y, row in enumerate(rows):
             shown = []
             for x, cell in enumerate(row):
-                if isinstance(cell, At):
+                if isinstance(cell, To):
+                    links[y, x] = cell.url
+                    shown.append(cell.text)
+                elif isinstance(cell, At):
                     links[y, x] = cell.url
                     pages |= {(y, x)} if self.paper else set()
                     shown.append("" if self.paper else cell.section or cell.notebook)

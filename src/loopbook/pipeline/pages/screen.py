@@ -12,7 +12,7 @@ from loopbook.pipeline.export.html_writer import HtmlWriter
 from loopbook.pipeline.export.inline_text import read_inline
 from loopbook.pipeline.export.page import Page, export_page
 from loopbook.pipeline.ledger_files import FILES
-from loopbook.pipeline.pages.ledger import NAMES
+from loopbook.pipeline.pages.ledger import NAMES, told
 from loopbook.pipeline.pages.medium import as_sections
 from loopbook.pipeline.pages.parts import Outline
 
@@ -45,7 +45,7 @@ def index_page(
     told: dict[str, Any] = {
         "outline": outline,
         "style": style_sheet(),
-        "documents": [(d.document, bars(d)) for d in [*by_document(counts), *_sum(counts)]],
+        "bars": {"": bars(total(counts)), **{d.document.replace("-", "_"): bars(d) for d in by_document(counts)}},
         "sections": [(title, title.replace(" ", "-")) for title in sections],
         "versions": versions,
         "size": lambda name: size(sizes[name]),
@@ -57,10 +57,6 @@ def index_page(
     return environment.get_template("index.html.j2").render(**told).encode()
 
 
-def _sum(counts: Sequence[Count]) -> list[Count]:
-    return [total(counts)] if len(by_document(counts)) > 1 else []
-
-
 def chips(verdicts: Mapping[str, Mapping[str, int]]) -> list[tuple[str, list[tuple[str, str]]]]:
     """The verdicts of one notebook: ("54 values", [("good", "32 reproduced"), …]) for each table that it has."""
     rows = []
@@ -69,19 +65,19 @@ def chips(verdicts: Mapping[str, Mapping[str, int]]) -> list[tuple[str, list[tup
         number = sum(given.values())
         if number:
             name = ONE[NAMES[table]] if number == 1 else NAMES[table]
-            marks = [(MARKS[v], f"{given[v]} {v}") for v in VERDICTS[table] if given.get(v)]
+            marks = [(MARKS[v], f"{given[v]} {told(v, given[v])}") for v in VERDICTS[table] if given.get(v)]
             rows.append((f"{number} {name}", marks))
     return rows
 
 
-def bars(count: Count) -> list[tuple[str, list[tuple[str, str, str, int]]]]:
-    """For a document, for each table the verdicts as pieces of a bar: (mark, verdict, share in percent, number)."""
+def bars(count: Count) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """For each table the verdicts as pieces of a bar: (mark, number and verdict, share in percent)."""
     rows = []
     for table in TABLES:
         given = count.of(table)
         number = sum(n for _, n in given)
         if number:
-            pieces = [(MARKS[v], v, f"{100 * n / number:.2f}", n) for v, n in given]
+            pieces = [(MARKS[v], f"{n} {told(v, n)}", f"{100 * n / number:.2f}") for v, n in given]
             rows.append((f"{number} {ONE[NAMES[table]] if number == 1 else NAMES[table]}", pieces))
     return rows
 
