@@ -66,6 +66,13 @@ def test_one_numbering_and_links_inside(chapters, written):
     assert pdf.startswith(b"%PDF") and pdf == export_book(chapters, **told)
 
 
+def test_what_stands_below_the_title_of_a_part(make, written):
+    one = Chapter("a", make.notebook("# A"), part="One", about="About $x$")
+    assert '#part("I", about: [#"About ";#m(' in written([one], title="B")
+    two = Chapter("b", make.notebook("# B"), part="One", about="not the first")
+    assert "not the first" not in written([one, two], title="B")
+
+
 def test_without_parts_chapters_are_the_first_level(make, written):
     source = written([Chapter("a", make.notebook("# A\n\n## S"))], title="B")
     assert '#chapter(1, "1", ' in source and '#section(2, "1.1", ' in source

@@ -32,24 +32,28 @@ class Chapter:
     """One notebook of a book.
 
     name: "folder/notebook", as links call it. title: default its first top heading. part: chapters of the same part
-    stand together. document: what its equation anchors begin with. assets: where its relative images are.
+    stand together. about: inline text below the title of the part that begins here. document: what its equation
+    anchors begin with. assets: where its relative images are.
     """
 
     name: str
     notebook: Any
     title: str = ""
     part: str = ""
+    about: str = ""
     document: str = ""
     assets: Path | None = None
 
 
 @dataclass(frozen=True)
 class _Bound:
-    """A chapter ready to be written. number: "3" or "B". part: the heading of a part that begins here, or ""."""
+    """A chapter ready to be written. number: "3" or "B". part: the heading of a part that begins here, or ""; about:
+    what stands below it."""
 
     report: Report
     number: str
     part: str
+    about: str = ""
 
 
 @dataclass(frozen=True)
@@ -112,7 +116,7 @@ def _bind(
             folder=chapter.assets,
             strict_alt=strict_alt,
         )
-        bound.append(_Bound(report, str(number), chapter.part if chapter.part != part else ""))
+        bound.append(_Bound(report, str(number), chapter.part if chapter.part != part else "", chapter.about))
         part = chapter.part
     for number, page in enumerate(appendix):
         report = read_page(page, strict_alt)
@@ -160,7 +164,8 @@ def _source(
         if entry.part:
             roman += 1
             number = _roman(roman) if entry.number.isdigit() else ""
-            pieces.append(f"#part({literal(number)})[#{literal(entry.part)};]")
+            about = f", about: [{writer.inline(read_inline(entry.about))}]" if entry.about else ""
+            pieces.append(f"#part({literal(number)}{about})[#{literal(entry.part)};]")
         also = [writer.label(report.title_anchor)] if report.title_anchor else []
         labels = ", ".join([f"label({literal(report.name)})", *also])
         pieces.append(f"#chapter({top}, {literal(entry.number)}, ({labels},))[{writer.inline(report.title)}]")

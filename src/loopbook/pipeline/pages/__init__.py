@@ -109,7 +109,7 @@ def _make(project: Project) -> tuple[dict[str, bytes], list[Failure]]:
     try:
         appendix = ledger.pages(PAPER, counts, found, words)
         built = "Made with " + ", ".join(f"{name} {number}" for name, number in tools.items())
-        made[BOOK] = volume(project, outline, appendix, [*ledger.sentences(counts), built])
+        made[BOOK] = volume(project, outline, appendix, [*ledger.sentences(counts), ledger.errors(found), built])
         on_screen = ledger.pages(SCREEN, counts, found, words)
         made[LEDGER] = screen.ledger_page(on_screen, outline.title)
     except ExportError as error:

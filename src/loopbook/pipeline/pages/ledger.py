@@ -114,7 +114,17 @@ def _number(number: int) -> str:
     return str(number) if number else ""
 
 
-def errata_page(medium: Medium, found: Iterable[Found]) -> Content:
+def errors(found: Iterable[Found]) -> str:
+    """The number of errata in words."""
+    wrong = errata(found)
+    misleads, false = (sum(e.group == group for e in wrong) for group in (MISLEADS, FALSE))
+    return (
+        f"{len(wrong)} errors in the documents: {misleads} would mislead someone who uses what is printed, {false} "
+        f"statements do not hold, {len(wrong) - misleads - false} mislead nobody"
+    )
+
+
+def errata_page(medium: Medium, found: Sequence[Found]) -> Content:
     """What is wrong in the documents; what misleads first."""
     wrong = errata(found)
     if not wrong:
@@ -124,12 +134,9 @@ def errata_page(medium: Medium, found: Iterable[Found]) -> Content:
         FALSE: "Statements that do not hold",
         HARMLESS: "What is only written wrongly",
     }
-    numbers = ", ".join(
-        f"{sum(e.group == g for e in wrong)} {w}" for g, w in ((MISLEADS, "would mislead"), (FALSE, "are false"))
-    )
+    shows = f"the {'page' if medium.paper else 'section'} named in its row shows how"
     content: Content = [
-        f"{len(wrong)} errors in the documents, of which {numbers}. Each was found by computation or by comparison "
-        f"within the document, and the {'page' if medium.paper else 'section'} named in its row shows how."
+        f"{errors(found)}. Each was found by computation or by comparison within the document, and {shows}."
     ]
     for group, title in heads.items():
         chosen = [e for e in wrong if e.group == group]

@@ -23,6 +23,7 @@ def volume(project: Project, outline: Outline, appendix: Sequence[Page], lines: 
                     json.loads(stamps.executed_path(project, notebook).read_bytes()),
                     title=entry["title"],
                     part=part.title,
+                    about=part.about,
                     document=part.folder.replace("_", "-"),
                     assets=notebook.path.parent,
                 )
