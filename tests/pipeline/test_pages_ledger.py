@@ -101,7 +101,8 @@ def test_the_cover_counts_what_is_printed_and_what_was_found():
     [
         ("0.65", "0.65", "0.65"),
         ("-1079731.25", "-1.0809e+06", "−1079731"),
-        ("12345678901234567890", "1", "12345678…567890 (20 digits)"),
+        ("-2.6147855538443261e+60", "-" + 60 * "26", "−2.614785554e60"),
+        ("12345678901234567890", "1", "123456…7890 (20 digits)"),
     ],
 )
 def test_a_computed_number_has_two_digits_more_than_the_print(computed, printed, shown):

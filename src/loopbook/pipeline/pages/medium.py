@@ -9,8 +9,11 @@ from loopbook.display import Table, number
 from loopbook.pipeline.export.page import LinkedTable, Page
 from loopbook.pipeline.harvest import Found
 
-LONG_INTEGER = 17
+LONG_INTEGER = 12
 """Digits in a row from which on a number is not shown whole."""
+
+MOST_DIGITS = 10
+"""More of a computed number are not shown here; the ledger's files have all."""
 
 
 @dataclass(frozen=True)
@@ -120,12 +123,12 @@ def short(digits: str) -> str:
     """A long row of digits by its ends and its length; its notebook shows all of them.
 
     >>> short("-2361183241434822606848"), short("8360")
-    ('-23611832…606848 (22 digits)', '8360')
+    ('-236118…6848 (22 digits)', '8360')
     """
     row = digits.lstrip("-")
     if len(row) <= LONG_INTEGER or not row.isdigit():
         return digits
-    return f"{digits[:9] if digits.startswith('-') else digits[:8]}…{row[-6:]} ({len(row)} digits)"
+    return f"{digits[: len(digits) - len(row) + 6]}…{row[-4:]} ({len(row)} digits)"
 
 
 def beside(computed: str, printed: str) -> str:
@@ -139,4 +142,4 @@ def beside(computed: str, printed: str) -> str:
     if computed.lstrip("-").isdigit() and len(computed) > LONG_INTEGER:
         return short(computed)
     digits = sum(c.isdigit() for c in re.sub(r"[eE].*", "", printed).lstrip("-0."))
-    return number(float(computed), max(4, digits + 2))
+    return number(float(computed), min(max(4, digits + 2), MOST_DIGITS))
