@@ -68,7 +68,7 @@ def altered(digits: str) -> str:
     ('6.45', '1.1882e+05', '0.8')
     """
     mantissa, e, exponent = digits.partition("e")
-    last = int(mantissa[-1])
+    last = int(mantissa[-1])  # printed digits end in a digit
     return f"{mantissa[:-1]}{last + 1 if last < 9 else 8}{e}{exponent}"
 
 
@@ -86,7 +86,7 @@ def value_mutants(root: Path) -> list[Mutant]:
         for start, end in pairwise(entries):
             id = re.match(r'id\s*=\s*"([^"]+)"', text[start:])[1]
             printed = re.search(r'(?<![\w-])printed\s*=\s*"([^"]*)"', text[start:end])
-            if printed and (document, id) in notebooks:
+            if printed and (document, id) in notebooks and re.fullmatch(r"[-+]?[\d.]+(e[-+]?\d+)?", printed[1]):
                 span = (start + printed.start(1), start + printed.end(1))
                 new = altered(printed[1])
                 what = f"{document}, {id}: {printed[1]} -> {new}"

@@ -277,10 +277,11 @@ class Document:
             parts = dict(parts) if isinstance(parts, Mapping) else {"": bool(parts)}
             verdict = claim_verdict(parts)
             failed = [name for name, outcome in parts.items() if name and not outcome]
-            where = f" Not for: {', '.join(failed)}." if verdict == PARTLY and failed else ""
-            rows.append([claim.place, claim.says, evidence + where, *([verdict] if self.compare else [])])
+            if verdict == PARTLY and failed:
+                evidence = f"{evidence.rstrip('.')}. Not for: {', '.join(failed)}."
+            rows.append([claim.place, claim.says, evidence, *([verdict] if self.compare else [])])
             marks.append(MARKS[verdict] if self.compare else "")
-            fields = {"says": claim.says, "evidence": evidence + where}
+            fields = {"says": claim.says, "evidence": evidence}
             records.append(Record("claim", self.id, claim.place, id, verdict, fields))
         heads = ["place", "the document says", "computed", "verdict"]
         caption = caption or f"{self.id}: statements tested"
