@@ -99,3 +99,11 @@ def test_no_python_at_all_is_one_line(tmp_path):
     )
     assert done.returncode != 0
     assert "loopbook needs Python 3.11 or newer" in done.stdout + done.stderr
+
+
+def test_the_readme_example_runs(capsys):
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", readme, re.S)
+    exec(compile(example, "README.md", "exec"), {})
+    Ms, iae = map(float, capsys.readouterr().out.split())
+    assert 1.3 < Ms < 1.6 and iae > 0

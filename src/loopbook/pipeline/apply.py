@@ -4,10 +4,11 @@ Notebook and file are copied into a folder of their own, so that the report name
 and a notebook that writes something cannot touch the originals.
 """
 
+import shlex
 import shutil
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from loopbook.pipeline import atomic
@@ -62,10 +63,11 @@ def apply(
     jobs: int | None = None,
     timeout: float = 600,
     console: Console | None = None,
+    repeat: Sequence[str] = ("loopbook", "design"),
 ) -> Outcome:
     """Run `notebook` once for each item, with `parameter` set to the item's file.
 
-    Raises UsageError before any kernel starts.
+    repeat: the command that did it, for the list of failures. Raises UsageError before any kernel starts.
     """
     console = console or Console()
     with tempfile.TemporaryDirectory(prefix="loopbook") as temporary:
@@ -87,7 +89,9 @@ def apply(
             path.mkdir(parents=True, exist_ok=True)
             atomic.writable(path)
         done = _work(project, todo, settings, jobs or _cores(), console)
-        outcome = _finish(project, done, [f for d in done for f in d.failures], todo, console)
+        again = {item.data.stem: shlex.join([*repeat, str(item.data)]) for item in wanted}
+        failures = [replace(f, repeat=again[f.notebook]) for d in done for f in d.failures]
+        outcome = _finish(project, done, failures, todo, console)
     if outcome.code == OK:
         for item in wanted:
             console.line(f"      {', '.join(str(path) for path in item.outputs.values())}")

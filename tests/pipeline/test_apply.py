@@ -1,0 +1,71 @@
+"""One notebook on files of the reader's own: a report each, errors before a kernel starts, no ledger."""
+
+import io
+import json
+
+import pytest
+
+from loopbook.pipeline.apply import apply, items
+from loopbook.pipeline.console import Console
+from loopbook.pipeline.project import UsageError
+
+READS = "value = float(open(data).read())\nassert value > 0, f'{data} holds {value}'\nvalue"
+
+
+@pytest.fixture
+def reader(bench):
+    return bench.write("own/reader", "# Reads", ('data: str = "none"', "parameters"), READS)
+
+
+def run(bench, notebook, wanted, parameters=()):
+    out = io.StringIO()
+    return apply(bench.project, notebook, wanted, parameters, console=Console(out)), out.getvalue()
+
+
+def test_each_file_gets_its_run_beside_it(bench, reader, tmp_path):
+    files = [tmp_path / "a.csv", tmp_path / "b.csv"]
+    for number, file in enumerate(files, 1):
+        file.write_text(f"{number}.5")
+    outcome, said = run(bench, reader, items(files, None, "design", ["ipynb"]))
+    assert outcome.code == 0 and "ok    a" in said and "ok    b" in said
+    for number, file in enumerate(files, 1):
+        report = tmp_path / f"{file.stem}-design.ipynb"
+        text = report.read_text(encoding="utf-8")
+        assert f"{number}.5" in text and str(tmp_path) not in text
+        cells = json.loads(text)["cells"]
+        assert any("data = " in (text := "".join(c["source"])) and file.name in text for c in cells)
+    assert not (bench.root / "reports").exists()
+
+
+def test_one_bad_file_fails_alone_and_is_named(bench, reader, tmp_path):
+    good, bad = tmp_path / "good.csv", tmp_path / "bad.csv"
+    good.write_text("1")
+    bad.write_text("-1")
+    outcome, said = run(bench, reader, items([good, bad], tmp_path / "out", "design", ["ipynb"]))
+    assert outcome.code == 1 and "bad.csv holds -1.0" in said
+    assert f"Repeat: loopbook design {bad}" in said
+    assert (tmp_path / "out" / "good-design.ipynb").exists() and not (tmp_path / "out" / "bad-design.ipynb").exists()
+
+
+def test_where_reports_may_go(tmp_path):
+    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    one.touch(), two.touch()
+    (single,) = items([one], tmp_path / "r.html", "design", ["pdf"])
+    assert single.outputs == {"html": (tmp_path / "r.html").resolve()}
+    with pytest.raises(UsageError, match=r"no such file: .*none\.csv"):
+        items([tmp_path / "none.csv"], None, "design", ["pdf"])
+    with pytest.raises(UsageError, match=r"ends in \.pdf, \.html or \.ipynb"):
+        items([one], tmp_path / "r.docx", "design", ["pdf"])
+    with pytest.raises(UsageError, match="2 reports are to be made: give a folder"):
+        items([one, two], tmp_path / "r.pdf", "design", ["pdf"])
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "one.csv").touch()
+    with pytest.raises(UsageError, match="two files of one name"):
+        items([one, tmp_path / "sub" / "one.csv"], tmp_path / "out", "design", ["pdf"])
+
+
+def test_wrong_parameters_are_refused_before_a_kernel_starts(bench, reader, tmp_path):
+    file = tmp_path / "a.csv"
+    file.write_text("1")
+    with pytest.raises(UsageError, match="no parameter 'dat'"):
+        run(bench, reader, items([file], None, "design", ["ipynb"]), [("dat", "x")])
