@@ -32,8 +32,8 @@ def test_each_file_gets_its_run_beside_it(bench, reader, tmp_path):
         report = tmp_path / f"{file.stem}-design.ipynb"
         text = report.read_text(encoding="utf-8")
         assert f"{number}.5" in text and str(tmp_path) not in text
-        cells = json.loads(text)["cells"]
-        assert any("data = " in (text := "".join(c["source"])) and file.name in text for c in cells)
+        sources = ["".join(c["source"]) for c in json.loads(text)["cells"]]
+        assert any("data = " in source and file.name in source for source in sources)
     assert not (bench.root / "reports").exists()
 
 
