@@ -28,7 +28,7 @@ def rows() -> list[Row]:
         copy_sources(project_at(ROOT), copy)
         project = project_at(copy)
         limit = int(os.environ.get("LOOPBOOK_BENCH_NOTEBOOKS", "0"))
-        for notebook in project.notebooks()[limit or None :]:
+        for notebook in project.notebooks()[limit:] if limit else []:
             notebook.path.unlink()
         return [*_ours(project), *_stock(project, Path(folder)), *_exports(project)]
 

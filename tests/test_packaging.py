@@ -55,7 +55,8 @@ def test_help_lists_every_target_with_a_line():
         ),
         ("ERROR: THESE PACKAGES DO NOT MATCH THE HASHES\nhashes do not match", "does not match the hash"),
         ("OSError: [Errno 28] No space left on device", "disk is full"),
-        ("ERROR: no matching distribution for x", "ERROR: no matching distribution for x"),
+        ("ERROR: No matching distribution found for anyio==4.16.0", "is there a network"),
+        ("ERROR: Failed building wheel for x", "ERROR: Failed building wheel for x"),
         ("", "no output"),
     ],
 )

@@ -53,12 +53,8 @@ def reason(log):
     if "hash" in text and "do not match" in text:
         return "a downloaded package does not match the hash in environment.txt; run make again, or make lock"
     network = (
-        "connection",
-        "timed out",
-        "temporary failure",
-        "name resolution",
-        "network is unreachable",
-        "max retries",
+        *("connection", "timed out", "temporary failure", "name resolution", "network is unreachable", "max retries"),
+        *("no matching distribution", "could not find a version"),  # what pip says when it cannot even ask
     )
     if any(word in text for word in network):
         return f"the packages of environment.txt could not be downloaded: is there a network? ({errors[-1]})"
