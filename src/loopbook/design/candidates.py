@@ -113,8 +113,3 @@ def candidates(model: Model) -> tuple[list[Candidate], list[Refused]]:
         ready = PidStandard(model.sign * pid.K, pid.Ti, pid.Td, b=pid.b, c=0.0, N=FILTER if pid.Td else None)
         accepted.append(Candidate(name, ready, tuning))
     return accepted, refused
-
-
-def own(name: str, pid: PidStandard) -> Candidate:
-    """Settings of one's own beside the rules'."""
-    return Candidate(name, pid, Tuning(pid, "own", "given", ()))

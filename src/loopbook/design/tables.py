@@ -153,4 +153,6 @@ def coefficients(program: SampledProgram) -> Table:
     ]
     rows += [[f"${name}$", GAINS[name], number(value, 6), ""] for name, value in program.gains.items()]
     align = ["left", "left", "right", "left"]
-    return Table(["", "coefficient", "value", "unit"], rows, "The discrete regulator", align)
+    share = f"{100 * program.delay_margin_left:.0f} %"
+    left = f"Sampling adds half an interval of dead time and leaves {share} of the delay margin."
+    return Table(["", "coefficient", "value", "unit"], rows, "The discrete regulator", align, (*program.why, left))

@@ -36,9 +36,9 @@ class Fit:
     """One fitted model.
 
     parameters: gain first (Kp or Kv), then time constants, then dead time L. residuals: shape (n,). fit: percentage
-    100 (1 - |residual| / |y - mean|). rmse: root mean square residual. correlation: of neighbouring residuals. aicc:
-    Akaike's criterion with the effective number of samples. settled: how many time constants were recorded after the
-    last step (infinite for integrating models). covariance: of (gain, lags, L).
+    100 (1 - |residual| / |y - mean|). rmse: root mean square residual. correlation: of neighbouring residuals.
+    settled: how many time constants were recorded after the last step (infinite for integrating models).
+    covariance: of (gain, lags, L).
     """
 
     structure: Structure
@@ -49,7 +49,6 @@ class Fit:
     fit: float
     rmse: float
     correlation: float
-    aicc: float
     settled: float
     covariance: np.ndarray
 
@@ -183,7 +182,6 @@ def _described(record, steps, structure, columns, lags, delay) -> Fit:
         fit=100 * (1 - float(np.linalg.norm(residuals) / max(np.linalg.norm(record.y - record.y.mean()), 1e-300))),
         rmse=float(np.sqrt(np.mean(residuals**2))),
         correlation=correlation,
-        aicc=effective * np.log(max(variance, 1e-300)) + 2 * p * effective / max(effective - p - 1, 1),
         settled=float("inf") if structure.integrating else float(after / sum(lags)),
         covariance=covariance[: len(values), : len(values)],
     )
