@@ -146,7 +146,7 @@ def _drifts(record: Record, steps: Steps) -> bool:
 
 def _described(record, steps, structure, columns, lags, delay) -> Fit:
     """Everything that is said of a fit, from its optimum."""
-    from scipy.stats import t as student
+    from scipy.special import stdtrit
 
     basis = _basis(record, columns, structure, steps, lags, delay)
     residuals, coefficients = _projected(record.y, basis)
@@ -167,7 +167,7 @@ def _described(record, steps, structure, columns, lags, delay) -> Fit:
     effective = n / inflation
     covariance = variance * inflation * np.linalg.pinv(jacobian.T @ jacobian)
     spread = np.sqrt(np.maximum(np.diag(covariance)[: len(values)], 0))
-    quantile = float(student.ppf(0.5 + CONFIDENCE / 2, max(effective - p, 1)))
+    quantile = float(stdtrit(max(effective - p, 1), 0.5 + CONFIDENCE / 2))  # of Student's distribution
     names = ["Kv" if structure.integrating else "Kp", *(["T"] if len(lags) == 1 else ["T1", "T2"][: len(lags)]), "L"]
     parameters = tuple(
         Parameter(*row) for row in zip(names, values.tolist(), (quantile * spread).tolist(), strict=True)
