@@ -13,8 +13,10 @@ Source: pid-report, sections 4.2.2 (forward) and 4.2.4 (backward); Tustin is the
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sympy import Add, Derivative, Eq, Expr, Function, Rational, Symbol, collect, expand, factor, simplify, solve
+from sympy import Add, Derivative, Eq, Expr, Function, Rational, Symbol, collect, expand, factor
 from sympy.core.function import AppliedUndef
+
+from derivations.rational import solved_for, vanishes
 
 h = Symbol("h", positive=True)
 t = Symbol("t", real=True)
@@ -64,9 +66,9 @@ def discretise(law: Eq, difference: Difference) -> Eq:
 
 
 def by_signals(expr: Expr) -> dict[Expr, Expr]:
-    """The coefficient of each sample in a linear expression, each simplified."""
+    """The coefficient of each sample in a linear expression, each as one fraction in factors."""
     expr = expand(expr)
-    return {s: factor(simplify(expr.coeff(s))) for s in sorted(expr.atoms(AppliedUndef), key=str)}
+    return {s: factor(expr.coeff(s)) for s in sorted(expr.atoms(AppliedUndef), key=str)}
 
 
 def update(law: Eq, state: str, difference: Difference) -> Eq:
@@ -80,8 +82,7 @@ def update(law: Eq, state: str, difference: Difference) -> Eq:
     """
     equation = discretise(law, difference)
     newest = at(state, 1) if equation.has(at(state, 1)) else at(state)
-    (solved,) = solve(equation, newest)
-    return Eq(newest, Add(*(gain * sample for sample, gain in by_signals(solved).items())))
+    return Eq(newest, Add(*(gain * sample for sample, gain in by_signals(solved_for(newest, equation)).items())))
 
 
 def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol, Expr], Eq]:
@@ -89,7 +90,7 @@ def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol,
 
     names: for each name a sample whose gain it shall stand for. A gain that is not plus or minus a named one is
     expressed through the first name by eliminating h. Returns the definitions and the shorter equation; each
-    rewriting is proven (the difference simplifies to zero), else ValueError.
+    rewriting is proven (the difference vanishes), else ValueError.
     """
     gains = by_signals(equation.rhs)
     defined = {name: gains[sample] for name, sample in names.items()}
@@ -97,11 +98,11 @@ def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol,
     def short(gain: Expr) -> Expr:
         for name, value in defined.items():
             for sign in (1, -1):
-                if simplify(gain - sign * value) == 0:
+                if vanishes(gain - sign * value):
                     return sign * name
         name, value = next(iter(defined.items()))
-        through = simplify(gain.subs(h, solve(Eq(name, value), h)[0])) if value.has(h) and gain.has(h) else gain
-        if simplify(through.subs(name, value) - gain) != 0:
+        through = factor(gain.subs(h, solved_for(h, Eq(name, value)))) if value.has(h) and gain.has(h) else gain
+        if not vanishes(through.subs(name, value) - gain):
             raise ValueError(f"the gain {gain} cannot be written with {name} = {value}")
         return through
 
