@@ -10,7 +10,7 @@ from loopbook.loop import Loop
 from loopbook.loop_transfer import LoopError, LoopTransfer
 from loopbook.margins import gain_crossovers, margins, phase_crossovers
 from loopbook.process import Process
-from loopbook.sensitivity_peaks import complementary_peak, sensitivity_peak
+from loopbook.sensitivity_peaks import _Axis, complementary_peak, sensitivity_peak
 from loopbook.stability import decay_rate, is_stable, shifted, unstable_roots
 
 TANK = Process([1 / 8360], [35, 12, 1], 2)
@@ -224,3 +224,34 @@ def test_a_hidden_unstable_mode_counts():
 def test_errors_say_what_is_wrong(ask, says):
     with pytest.raises(LoopError, match=says):
         ask()
+
+
+@settings(max_examples=60, deadline=None)
+@given(loops())
+def test_what_a_survey_says_of_an_interval_holds_on_all_of_it(loop):
+    """The bounds of the branch and bound, for G and 1/G, against many points of each interval."""
+    edges = np.concatenate([[0.0], np.geomspace(1e-3, 1e2, 60)])
+    share = np.linspace(0, 1, 101)[1:-1, None]
+    for curve in (_Axis(loop, inverse=False), _Axis(loop, inverse=True)):
+        for width in (1.0, 1e-2):
+            a, b = edges[:-1], edges[:-1] + width * np.diff(edges)
+            values, bound = curve.survey(a, b)
+            seen = curve.distance(a + share * (b - a))
+            assert (seen >= bound - 1e-9 * (1 + abs(bound))).all()
+            assert values == pytest.approx(seen[49], rel=1e-9)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.floats(0.1, 5), max_size=4), st.floats(0, 4), st.floats(0.05, 0.9), st.floats(0.1, 2))
+def test_the_decay_rate_is_counted_on_both_sides(lags, delay, share, Ti):
+    """All roots to the left of -rate, and one to the right a little further: by the other method of counting too."""
+    den = np.polymul(np.poly([-1 / lag for lag in lags]) * np.prod(lags), [1, 0])
+    gain = share / (delay + sum(lags) + Ti)
+    loop = LoopTransfer((gain * Ti, gain), tuple(np.atleast_1d(den)), delay)
+    assume(is_stable(loop))
+    rate = decay_rate(loop)
+    assert is_stable(shifted(loop, rate))
+    assert not is_stable(shifted(loop, rate * (1 + 1e-6)))
+    for factor in (0.999, 1.001):
+        there = shifted(loop, rate * factor)
+        assert (walton_marshall(there.num, there.den, delay) > 0) == (factor > 1)

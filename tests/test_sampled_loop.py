@@ -6,12 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from loopbook.circle_transfer import CircleTransfer
 from loopbook.loop import Loop
 from loopbook.loop_transfer import LoopError
 from loopbook.process import Process, ProcessError
 from loopbook.rst import Rst, place, with_zeros
 from loopbook.sampled_loop import SampledLoop
 from loopbook.sampling import sample
+from loopbook.sensitivity_peaks import Circle
 from loopbook.simulation import SimulationError, simulate
 
 TANK = Process([1 / 8360], [35, 12, 1], 2)
@@ -167,3 +169,33 @@ def test_a_loop_of_first_order_by_hand():
     assert loop.poles == pytest.approx([0.5])
     assert loop.margins().gain == pytest.approx(4)
     assert loop.step("reference", 3).y == pytest.approx([0, 0.5, 0.75, 0.875])
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0, 2), st.floats(-np.pi, np.pi)), min_size=1, max_size=4),
+    st.floats(0, 3.1),
+    st.floats(1e-3, 1),
+)
+def test_distances_of_roots_to_an_arc(polar, start, share):
+    """Nearest and farthest point, also of roots below the axis, against many points of the arc."""
+    roots = np.array([r * np.exp(1j * angle) for r, angle in polar])
+    a, b = np.array([start]), np.array([start + share * (np.pi - start)])
+    points = np.exp(1j * np.linspace(a[0], b[0], 2001))
+    seen = abs(points - roots[:, None])
+    near, far = CircleTransfer(np.ones(1), np.ones(1), roots[:0], roots[:0]).distances(roots, a, b)
+    assert (near[:, 0] <= seen.min(axis=1) + 1e-12).all() and near[:, 0] == pytest.approx(seen.min(axis=1), abs=2e-3)
+    assert (far[:, 0] >= seen.max(axis=1) - 1e-12).all() and far[:, 0] == pytest.approx(seen.max(axis=1), abs=2e-3)
+
+
+@pytest.mark.parametrize("q", [0.3, 0.7])
+def test_what_a_survey_says_of_an_arc_holds_on_all_of_it(q):
+    edges, share = np.geomspace(1e-3, np.pi, 60), np.linspace(0, 1, 101)[1:-1, None]
+    transfer = double_tank(q).on_circle
+    for curve in (Circle(transfer), Circle(transfer.inverse())):
+        for width in (1.0, 1e-2):
+            a, b = edges[:-1], edges[:-1] + width * np.diff(edges)
+            values, bound = curve.survey(a, b)
+            seen = curve.distance(a + share * (b - a))
+            assert (seen >= bound - 1e-9 * (1 + abs(bound))).all()
+            assert values == pytest.approx(seen[49], rel=1e-9)

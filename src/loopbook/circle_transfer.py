@@ -58,11 +58,15 @@ class CircleTransfer:
     def distances(self, roots: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Of each root to the nearest and the farthest point of the arcs [a, b]; shapes (roots, arcs)."""
         size, angle = abs(roots)[:, None], np.angle(roots)[:, None]
-        nearest = np.clip(angle, a, b)
-        farthest = np.where(abs(a - angle) > abs(b - angle), a, b)
-        near, far = (np.hypot(1 - size, 2 * np.sqrt(size) * np.sin((x - angle) / 2)) for x in (nearest, farthest))
-        turned_far = np.hypot(1 - size, 2 * np.sqrt(size) * np.sin(np.minimum(np.pi, abs(farthest - angle)) / 2))
-        return near, np.maximum(far, turned_far)
+
+        def distance(x: np.ndarray) -> np.ndarray:
+            return np.hypot(1 - size, 2 * np.sqrt(size) * np.sin((x - angle) / 2))
+
+        ends = distance(a), distance(b)
+        passed = (a <= angle) & (angle <= b)  # the arc lies in [0, pi], the angles of the roots in (-pi, pi]
+        opposite = (a <= angle + np.pi) & (angle + np.pi <= b)
+        near = np.where(passed, abs(1 - size), np.minimum(*ends))
+        return near, np.where(opposite, 1 + size, np.maximum(*ends))
 
     def curvature(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """What |d2/da2 log G| cannot exceed on [a, b]."""
@@ -114,15 +118,16 @@ class CircleTransfer:
         """All angles in [0, pi] with G real and negative, ascending; the ends where G is finite there."""
         from scipy.optimize import brentq
 
+        cuts = self._monotone(np.imag)
+        low, high = cuts[:-1] + 1e-13 * cuts[1:], cuts[1:] - 1e-13 * cuts[1:]
+        turns = np.sort((np.array([self.phase(low), self.phase(high)]) / np.pi - 1) / 2, axis=0)
+        first, last = np.ceil(turns[0]), np.floor(turns[1])
         found = []
-        for a, b in pairwise(self._monotone(np.imag)):
-            inner = a + 1e-13 * b, b - 1e-13 * b
-            turns = np.sort((self.phase(np.array(inner)) / np.pi - 1) / 2)
-            for k in np.arange(np.ceil(turns[0]), np.floor(turns[1]) + 1):
-                level = (2 * k + 1) * np.pi
-                ends = [float(self.phase(np.array(x))) - level for x in inner]
-                if ends[0] * ends[1] < 0:
-                    found.append(brentq(lambda x, c=level: float(self.phase(np.array(x))) - c, *inner, xtol=1e-15 * b))
+        for i in np.flatnonzero(first <= last):
+            for k in np.arange(first[i], last[i] + 1):
+                gap = lambda x, level=(2 * k + 1) * np.pi: float(self.phase(np.array(x))) - level  # noqa: E731
+                if gap(low[i]) * gap(high[i]) < 0:
+                    found.append(brentq(gap, low[i], high[i], xtol=1e-15 * cuts[i + 1]))
         ends = [x for x in (0.0, np.pi) if np.isfinite(v := self(np.array(x))) and v.real < 0 and abs(v) > 1e-12]
         return np.unique(np.array([*(x for x in found if x < np.pi * (1 - 1e-9)), *ends]))
 

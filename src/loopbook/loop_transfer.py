@@ -5,6 +5,7 @@ over poles and zeros less w L, continuous in w; its slope is a rational function
 the roots of a polynomial and each crossing of a level is bracketed. No crossover can hide between grid points.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -12,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from loopbook import horner
 from loopbook.process import ProcessError, coefficients
 
 ON_AXIS = 1e-9
@@ -21,34 +23,26 @@ class LoopError(ValueError):
     """A question that the loop cannot answer: the message says why."""
 
 
-def _even(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """p(jw) = real(w) + j imag(w) as two polynomials in w, descending."""
-    powers = np.arange(len(p) - 1, -1, -1)
-    values = p * np.array([1, 1j, -1, -1j])[powers % 4]
-    return values.real, values.imag
+def _product_with_mirror(p: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Re(p(jw) conj(q(jw))) as a polynomial in x = w^2, descending: the even part of p(s) q(-s) at s^2 = -x."""
+    mirrored = np.asarray(q) * (-1.0) ** np.arange(len(q) - 1, -1, -1)
+    even = np.convolve(p, mirrored)[::-1][::2][::-1]
+    return even * (-1.0) ** np.arange(len(even) - 1, -1, -1)
 
 
 def _magnitude_squared(p: np.ndarray) -> np.ndarray:
-    real, imag = _even(p)
-    return np.polyadd(np.polymul(real, real), np.polymul(imag, imag))
+    """|p(jw)|^2, a polynomial in w^2."""
+    return _product_with_mirror(p, p)
 
 
 def _slope_of_phase(p: np.ndarray) -> np.ndarray:
-    """d/dw arg p(jw) times |p(jw)|^2, a polynomial in w: real imag' - imag real'."""
-    real, imag = _even(p)
-    return np.polysub(np.polymul(real, np.polyder(imag)), np.polymul(imag, np.polyder(real)))
+    """d/dw arg p(jw) times |p(jw)|^2, a polynomial in w^2: Re(p'(jw) conj(p(jw)))."""
+    return _product_with_mirror(np.polyder(p), p) if len(p) > 1 else np.zeros(1)
 
 
 def positive_roots(p: np.ndarray) -> np.ndarray:
-    """The positive real roots of an even real polynomial in w, ascending: candidates at double roots included."""
-    p = np.trim_zeros(np.asarray(p, dtype=float), "f")
-    if len(p) < 3:
-        return np.zeros(0)
-    even = p[::-1][::2]
-    even = np.trim_zeros(even, "f")[::-1]
-    if len(even) < 2:
-        return np.zeros(0)
-    x = np.roots(even)
+    """The w > 0 at which a real polynomial in x = w^2 vanishes, ascending: candidates at double roots included."""
+    x = np.roots(p)
     x = x[(x.real > 0) & (abs(x.imag) <= 1e-6 * abs(x))].real
     return np.sort(np.sqrt(x))
 
@@ -75,7 +69,7 @@ class LoopTransfer:
 
     def __call__(self, s: Any) -> Any:
         s = np.asarray(s)
-        return np.polyval(self.num, s) / np.polyval(self.den, s) * np.exp(-self.delay * s)
+        return horner.value(self.num, s) / horner.value(self.den, s) * np.exp(-self.delay * s)
 
     @cached_property
     def zeros(self) -> np.ndarray:
@@ -93,8 +87,8 @@ class LoopTransfer:
 
     def magnitude(self, w: Any) -> Any:
         """|n(jw)/d(jw)|."""
-        w = np.asarray(w, dtype=float)
-        return abs(np.polyval(self.num, 1j * w) / np.polyval(self.den, 1j * w))
+        s = 1j * np.asarray(w, dtype=float)
+        return abs(horner.value(self.num, s) / horner.value(self.den, s))
 
     @cached_property
     def phase_at_start(self) -> float:
@@ -118,22 +112,23 @@ class LoopTransfer:
         if scale == 0:
             raise LoopError("the loop's magnitude is 1 at every frequency: it has no crossover frequencies")
         found = []
-        for w in positive_roots(difference):
+        for w in positive_roots(difference).tolist():
             for _ in range(4):
-                slope = self._log_slope(w)
+                level, slope = self._log_magnitude(w)
                 if slope == 0:
                     break
-                w = w * np.exp(np.clip(-np.log(self.magnitude(w)) / slope, -1e-3, 1e-3))
-            if abs(np.log(self.magnitude(w))) < 1e-7:
-                found.append(float(w))
+                w = w * math.exp(min(max(-level / slope, -1e-3), 1e-3))
+            if abs(self._log_magnitude(w)[0]) < 1e-7:
+                found.append(w)
         return _distinct(found)
 
-    def _log_slope(self, w: float) -> float:
-        """d log|n/d| / d log w."""
+    def _log_magnitude(self, w: float) -> tuple[float, float]:
+        """log|n/d| at s = jw and its slope over log w; the slope is 0 where n or d vanishes."""
         s = 1j * w
-        n = np.polyval(np.polyder(self.num), s) / np.polyval(self.num, s)
-        d = np.polyval(np.polyder(self.den), s) / np.polyval(self.den, s)
-        return float((s * (n - d)).real)
+        (n, dn), (d, dd) = horner.with_slope(self.num, s), horner.with_slope(self.den, s)
+        if not (n and d):
+            return (-math.inf if d else math.inf), 0.0
+        return math.log(abs(n) / abs(d)), (s * (dn / n - dd / d)).real
 
     @cached_property
     def monotone_phase(self) -> np.ndarray:
@@ -192,9 +187,11 @@ class LoopTransfer:
     def _polished(self, w: float) -> float:
         """A last Newton step with the polynomials themselves, which are more exact than their roots."""
         s = 1j * w
-        wrapped = np.angle(-self(s))
-        logs = (np.polyval(np.polyder(p), s) / np.polyval(p, s) for p in (self.num, self.den))
-        slope = (1j * (next(logs) - next(logs))).imag - self.delay
+        (n, dn), (d, dd) = horner.with_slope(self.num, s), horner.with_slope(self.den, s)
+        if not (n and d):
+            return w
+        wrapped = np.angle(-n / d * np.exp(-self.delay * s))
+        slope = (1j * (dn / n - dd / d)).imag - self.delay
         change = wrapped / slope if slope else 0.0
         return w - change if abs(change) < 1e-6 * w else w
 
@@ -208,16 +205,11 @@ def _snapped(roots: np.ndarray) -> np.ndarray:
 
 def _turned(roots: np.ndarray, w: np.ndarray) -> np.ndarray:
     """The change of arg(s - root), summed over the roots, from s = 0+ to s = jw; roots on the axis count as left."""
-    total = np.zeros(np.shape(w))
-    for r in roots:
-        if r.real == 0:
-            start = 0.0 if r.imag == 0 else -np.sign(r.imag) * np.pi / 2
-            total = total + np.where(w >= r.imag, np.pi / 2, -np.pi / 2) - start
-            continue
-        sign = -np.sign(r.real)
-        # measured from the direction away from the root's side, where arg never jumps
-        total = total + sign * (np.arctan2(w - r.imag, abs(r.real)) - np.arctan2(-r.imag, abs(r.real)))
-    return total
+    re, im, w = roots.real, roots.imag, np.asarray(w)[..., None]
+    # measured from the direction away from the root's side, where arg never jumps
+    side = -np.sign(re) * (np.arctan2(w - im, abs(re)) - np.arctan2(-im, abs(re)))
+    on_axis = np.where(w >= im, np.pi / 2, -np.pi / 2) + np.sign(im) * np.pi / 2
+    return np.where(re == 0, on_axis, side).sum(axis=-1)
 
 
 def _last_nonzero(p: tuple[float, ...]) -> float:

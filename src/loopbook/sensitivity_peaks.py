@@ -3,14 +3,17 @@
     1/Ms = min |1 + G(jw)|,    1/Mt = min |1 + 1/G(jw)|,    G = n/d exp(-Ls)
 
 With dead time the minimum may lie on any of the many loops of the Nyquist curve. Branch and bound finds it: on an
-interval of w the distances to the poles and zeros bound |G| and |dG/dw|, hence |1 + G| from below; an interval is
-dropped only when that bound shows that nothing smaller can lie in it.
+interval of w the distances to the poles and zeros bound |G| and the curve's departure from its tangent, hence |1 + G|
+from below; an interval is dropped only when that bound shows that nothing smaller can lie in it.
 """
 
+import cmath
+import math
 from typing import NamedTuple
 
 import numpy as np
 
+from loopbook import horner
 from loopbook.circle_transfer import CircleTransfer
 from loopbook.loop_transfer import LoopError, LoopTransfer
 
@@ -24,74 +27,97 @@ class Peak(NamedTuple):
     w: float
 
 
-class _Axis:
-    """W = k prod(s - z)/prod(s - p) exp(-L s) on the imaginary axis: G itself or 1/G (then with a negative L)."""
-
-    def __init__(self, loop: LoopTransfer, inverse: bool):
-        num, den = (loop.den, loop.num) if inverse else (loop.num, loop.den)
-        self.zeros, self.poles = (loop.poles, loop.zeros) if inverse else (loop.zeros, loop.poles)
-        self.num, self.den = np.array(num), np.array(den)
-        self.delay = -loop.delay if inverse else loop.delay
-        self.k = abs(num[0] / den[0])
-
-    def __call__(self, w: np.ndarray) -> np.ndarray:
-        s = 1j * np.asarray(w, dtype=float)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.polyval(self.num, s) / np.polyval(self.den, s) * np.exp(-self.delay * s)
+class _Curve:
+    """W over w. A subclass tells W, d log W/dw, and what bounds them on intervals."""
 
     def distance(self, w: np.ndarray) -> np.ndarray:
         """|1 + W|, infinite at a pole."""
         value = np.abs(1 + self(w))
         return np.where(np.isfinite(value), value, np.inf)
 
+    def slope(self, w: float) -> float:
+        """A positive multiple of d|1 + W|/dw."""
+        value = self(np.array(w))
+        return float((np.conj(1 + value) * value * self.log_slope(np.array(w))).real)
+
+    def survey(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """|1 + W| in the middle m of each [a, b], and what it cannot fall below there:
+
+        |1 + W(w)| >= |1 + W(m) + (w - m) W'(m)| - max|W''| (b - a)^2/8,    |W| - 1,    1 - |W|
+        """
+        least, most, pace, bend = self.extent(a, b)
+        middle, half = (a + b) / 2, (b - a) / 2
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            W = self(middle)
+            start, chord = 1 + W, W * self.log_slope(middle) * half
+            to_foot = np.clip(-(np.conj(chord) * start).real / np.abs(chord) ** 2, -1, 1)
+            to_foot = np.where(np.isfinite(to_foot), to_foot, 0.0)
+            local = np.abs(start + to_foot * chord) - most * (pace**2 + bend) * half**2 / 2
+        values = np.where(np.isfinite(W), np.abs(start), np.inf)
+        return values, np.fmax(np.fmax(np.where(np.isfinite(local), local, -1.0), least - 1), 1 - most)
+
+
+class _Axis(_Curve):
+    """W = k prod(s - z)/prod(s - p) exp(-L s) on the imaginary axis: G itself or 1/G (then with a negative L)."""
+
+    def __init__(self, loop: LoopTransfer, inverse: bool):
+        self.num, self.den = (loop.den, loop.num) if inverse else (loop.num, loop.den)
+        self.zeros, self.poles = (loop.poles, loop.zeros) if inverse else (loop.zeros, loop.poles)
+        self.delay = -loop.delay if inverse else loop.delay
+        self.k = abs(self.num[0] / self.den[0])
+
+    def __call__(self, w: np.ndarray) -> np.ndarray:
+        s = 1j * np.asarray(w, dtype=float)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return horner.value(self.num, s) / horner.value(self.den, s) * np.exp(-self.delay * s)
+
+    def log_slope(self, w: np.ndarray) -> np.ndarray:
+        """d log W/dw."""
+        (n, dn), (d, dd) = (horner.with_slope(p, 1j * w) for p in (self.num, self.den))
+        return 1j * (dn / n - dd / d - self.delay)
+
+    def slope(self, w: float) -> float:
+        """The same with numerator and denominator n, d, in which nothing is divided by."""
+        s = 1j * w
+        (n, dn), (d, dd) = (horner.with_slope(p, s) for p in (self.num, self.den))
+        turn = cmath.exp(-self.delay * s)
+        return ((d + n * turn).conjugate() * d.conjugate() * turn * 1j * (dn * d - dd * n - self.delay * n * d)).real
+
     def grid(self) -> tuple[np.ndarray, float, float]:
         """Where to search, beyond which nothing is left to find, and the best of the curve's two ends: value, w."""
         sizes = [abs(r) for r in (*self.zeros, *self.poles) if abs(r) > 0]
         pace = [1 / abs(self.delay)] if self.delay else []
         low, high = 1e-3 * min([*sizes, *pace], default=1.0), 2 * max([*sizes, *pace], default=1.0)
-        ends = (_limit(self), np.inf), (float(self.distance(np.array([1e-12 * low]))[0]), 0.0)
-        best, at = min(ends)
-        for _ in range(400):
-            if _tail(self, high) >= min(best, 1.0) * (1 - CERTAIN) or high > 1e12 * low:
-                break
-            high *= 1.5
-        return np.concatenate([[0.0], np.geomspace(low, high, 200)]), best, at
+        w = np.geomspace(low, high, 200)
+        at_zero, *inside = self.distance(np.append(1e-12 * low, w))
+        end = min((_limit(self), np.inf), (float(at_zero), 0.0))
+        farther = high * 1.5 ** np.arange(2 + max(0, math.ceil(math.log(1e12 * low / high, 1.5))))
+        over = np.flatnonzero(_tail(self, farther) >= min(end[0], *inside, 1.0) * (1 - CERTAIN))
+        return np.concatenate([[0.0], w, farther[1 : over[0] + 1 if over.size else None]]), *end
 
-    def slope(self, w: float) -> float:
-        """A positive multiple of d|1 + W|/dw."""
-        s, value = 1j * w, complex(self(w))
-        logs = [np.polyval(np.polyder(p), s) / np.polyval(p, s) for p in (self.num, self.den)]
-        return float((np.conj(1 + value) * value * 1j * (logs[0] - logs[1] - self.delay)).real)
-
-    def bound(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """What |1 + W| cannot fall below on [a, b]."""
-        (z_near, z_far), (p_near, p_far) = _distances(self.zeros, a, b), _distances(self.poles, a, b)
+    def extent(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """On each [a, b]: what |W| exceeds and what it cannot, what |d log W/dw| and |d2 log W/dw2| cannot."""
+        roots, split = np.concatenate([self.zeros, self.poles])[:, None], len(self.zeros)
+        outside = np.maximum(0.0, np.maximum(a - roots.imag, roots.imag - b))
+        near = np.hypot(roots.real, outside)
+        far = np.hypot(roots.real, np.maximum(abs(a - roots.imag), abs(b - roots.imag)))
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            most = self.k * z_far.prod(axis=0) / p_near.prod(axis=0)
-            least = self.k * z_near.prod(axis=0) / p_far.prod(axis=0)
-            steepest = most * ((1 / z_near).sum(axis=0) + (1 / p_near).sum(axis=0) + abs(self.delay))
-            local = self.distance((a + b) / 2) - steepest * (b - a) / 2
-        return np.fmax(np.fmax(np.where(np.isfinite(local), local, -1.0), least - 1), 1 - most)
+            most = self.k * far[:split].prod(axis=0) / near[split:].prod(axis=0)
+            least = self.k * near[:split].prod(axis=0) / far[split:].prod(axis=0)
+            return least, most, (1 / near).sum(axis=0) + abs(self.delay), (1 / near**2).sum(axis=0)
 
 
-def _distances(roots: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of each root to the nearest and to the farthest point of j[a, b]; shapes (roots, intervals)."""
-    re, im = roots.real[:, None], roots.imag[:, None]
-    outside = np.maximum(0.0, np.maximum(a - im, im - b))
-    return np.hypot(re, outside), np.hypot(re, np.maximum(abs(a - im), abs(b - im)))
-
-
-def _tail(curve: _Axis, start: float) -> float:
-    """What |1 + W| cannot fall below beyond `start`, which exceeds every |root|."""
+def _tail(curve: _Axis, start: np.ndarray) -> np.ndarray:
+    """What |1 + W| cannot fall below beyond each `start`, which exceeds every |root|."""
     excess = len(curve.zeros) - len(curve.poles)
-    up = lambda roots: float(np.prod(1 + abs(roots) / start))  # noqa: E731
-    down = lambda roots: float(np.prod(1 - abs(roots) / start))  # noqa: E731
+    up = lambda roots: np.prod(1 + abs(roots) / start[:, None], axis=1)  # noqa: E731
+    down = lambda roots: np.prod(1 - abs(roots) / start[:, None], axis=1)  # noqa: E731
     scale = curve.k * start**excess
-    if excess <= 0:
-        most = scale * up(curve.zeros) / down(curve.poles)
-        least = scale * down(curve.zeros) / up(curve.poles) if excess == 0 else 0.0
-        return max(1 - most, least - 1)
-    return scale * down(curve.zeros) / up(curve.poles) - 1
+    least = scale * down(curve.zeros) / up(curve.poles)
+    if excess > 0:
+        return least - 1
+    most = scale * up(curve.zeros) / down(curve.poles)
+    return np.maximum(1 - most, least - 1) if excess == 0 else 1 - most
 
 
 def _limit(curve: _Axis) -> float:
@@ -104,38 +130,35 @@ def _limit(curve: _Axis) -> float:
     return abs(1 + curve.num[0] / curve.den[0])
 
 
-class Circle:
+class Circle(_Curve):
     """W = G or 1/G on the unit circle, for sampled loops; w is the angle."""
 
     def __init__(self, transfer: CircleTransfer):
         self.transfer = transfer
 
-    def distance(self, a: np.ndarray) -> np.ndarray:
-        value = np.abs(1 + self.transfer(a))
-        return np.where(np.isfinite(value), value, np.inf)
+    def __call__(self, a: np.ndarray) -> np.ndarray:
+        return self.transfer(a)
 
-    def slope(self, a: float) -> float:
-        at = np.array(a)
-        value = complex(self.transfer(at))
-        return float((np.conj(1 + value) * value * complex(self.transfer.log_slope(at))).real)
+    def log_slope(self, a: np.ndarray) -> np.ndarray:
+        return self.transfer.log_slope(a)
 
     def grid(self) -> tuple[np.ndarray, float, float]:
         t = self.transfer
         ends = [(float(self.distance(np.array(a))), float(a)) for a in (1e-9 * t.start, np.pi)]
         return np.concatenate([[0.0], np.geomspace(t.start, np.pi, 200)]), *min(ends)
 
-    def bound(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    def extent(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         t = self.transfer
-        (z_near, z_far), (p_near, p_far) = (t.distances(roots, a, b) for roots in (t.zeros, t.poles))
+        roots, split = np.concatenate([t.zeros, t.poles]), len(t.zeros)
+        near, far = t.distances(roots, a, b)
+        size = abs(roots)[:, None]
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            most = abs(t.k) * z_far.prod(axis=0) / p_near.prod(axis=0)
-            least = abs(t.k) * z_near.prod(axis=0) / p_far.prod(axis=0)
-            pace = (abs(t.zeros)[:, None] / z_near).sum(axis=0) + (abs(t.poles)[:, None] / p_near).sum(axis=0)
-            local = self.distance((a + b) / 2) - most * (pace + abs(t.d)) * (b - a) / 2
-        return np.fmax(np.fmax(np.where(np.isfinite(local), local, -1.0), least - 1), 1 - most)
+            most = abs(t.k) * far[:split].prod(axis=0) / near[split:].prod(axis=0)
+            least = abs(t.k) * near[:split].prod(axis=0) / far[split:].prod(axis=0)
+            return least, most, (size / near).sum(axis=0) + abs(t.d), (size / near**2).sum(axis=0)
 
 
-def _polished(curve: "_Axis | Circle", a: float, b: float, w: float) -> tuple[float, float]:
+def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float]:
     """(distance, w) at the minimum near w in [a, b]."""
     from scipy.optimize import brentq
 
@@ -145,13 +168,13 @@ def _polished(curve: "_Axis | Circle", a: float, b: float, w: float) -> tuple[fl
     return float(curve.distance(np.array(w))), float(w)
 
 
-def closest(curve: "_Axis | Circle") -> tuple[float, float]:
+def closest(curve: _Curve) -> tuple[float, float]:
     """min |1 + W| over the whole curve and where, to a certified relative 1e-6 and in fact to rounding."""
     grid, best, at = curve.grid()
     a, b = grid[:-1], grid[1:]
     for _ in range(60):
         middle = (a + b) / 2
-        values = curve.distance(middle)
+        values, bound = curve.survey(a, b)
         i = int(np.argmin(values))
         if values[i] < best * (1 - 1e-15):
             width = b[i] - a[i]
@@ -159,7 +182,7 @@ def closest(curve: "_Axis | Circle") -> tuple[float, float]:
                 (float(values[i]), float(middle[i])),
                 _polished(curve, max(a[i] - width, 0.0), b[i] + width, float(middle[i])),
             )
-        keep = curve.bound(a, b) < best * (1 - CERTAIN)
+        keep = bound < best * (1 - CERTAIN)
         a, b, middle = a[keep], b[keep], middle[keep]
         if not a.size:
             return best, at
