@@ -43,8 +43,55 @@ def test_one_bad_file_fails_alone_and_is_named(bench, reader, tmp_path):
     bad.write_text("-1")
     outcome, said = run(bench, reader, items([good, bad], tmp_path / "out", "design", ["ipynb"]))
     assert outcome.code == 1 and "bad.csv holds -1.0" in said
-    assert f"Repeat: loopbook design {bad}" in said
+    assert f"Repeat: loopbook design {bad}" in said and f"{tmp_path / 'out' / 'good-design.ipynb'}" in said
     assert (tmp_path / "out" / "good-design.ipynb").exists() and not (tmp_path / "out" / "bad-design.ipynb").exists()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_many_files_show_progress_and_end_with_the_folder_and_every_failure(bench, reader, tmp_path, capsys):
+    files = [tmp_path / f"r{n:02}.csv" for n in range(12)]
+    for n, file in enumerate(files):
+        file.write_text("nothing" if n in (3, 8) else f"{n}.25")
+    out = Terminal()
+    wanted = items(files, tmp_path / "out", "design", ["ipynb"])
+    outcome = apply(bench.project, reader, wanted, [], jobs=2, console=Console(out))
+    assert outcome.code == 1 and len(outcome.done) == 12
+    made = {path.name for path in (tmp_path / "out").iterdir()}
+    assert made == {f"r{n:02}-design.ipynb" for n in range(12) if n not in (3, 8)}
+    said = out.getvalue()
+    assert f"10 reports in {tmp_path / 'out'}" in said and "2 failed:" in said
+    assert said.count("ok    r") == 10 and said.count("FAIL  r") == 2
+    last = said[said.index("2 failed:") :]
+    assert "r03, cell 3: ValueError" in last and "r08, cell 3: ValueError" in last
+    assert "12/12" in capsys.readouterr().err
+
+
+def test_the_command_that_repeats_a_failure_has_its_parameters(bench, tmp_path):
+    notebook = bench.write("own/reader", "# Reads", ('data: str = "none"\nlimit: float = 0.0', "parameters"), READS)
+    (tmp_path / "bad.csv").write_text("-1")
+    _, said = run(bench, notebook, items([tmp_path / "bad.csv"], None, "design", ["ipynb"]), [("limit", "2")])
+    assert f"Repeat: loopbook design {tmp_path / 'bad.csv'} -p limit 2" in said
+
+
+def test_data_that_a_notebook_shows_as_json_is_a_report_of_its_own(bench, reader, tmp_path):
+    shows = bench.write(
+        "own/shows",
+        "# Shows",
+        ('data: str = "none"', "parameters"),
+        "from IPython.display import JSON",
+        "JSON({'K': 0.5})",
+    )
+    (tmp_path / "a.csv").write_text("1")
+    (single,) = items([tmp_path / "a.csv"], tmp_path / "a.json", "design", ["pdf"])
+    assert run(bench, shows, [single])[0].code == 0
+    assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8")) == {"K": 0.5}
+    outcome, said = run(bench, reader, [single])
+    assert outcome.code == 1 and "json: LookupError: the notebook shows no data as JSON" in said
+    assert not (tmp_path / "a.json").exists()
 
 
 def test_where_reports_may_go(tmp_path):
@@ -54,8 +101,10 @@ def test_where_reports_may_go(tmp_path):
     assert single.outputs == {"html": (tmp_path / "r.html").resolve()}
     with pytest.raises(UsageError, match=r"no such file: .*none\.csv"):
         items([tmp_path / "none.csv"], None, "design", ["pdf"])
-    with pytest.raises(UsageError, match=r"ends in \.pdf, \.html or \.ipynb"):
+    with pytest.raises(UsageError, match=r"ends in \.pdf, \.html, \.ipynb or \.json"):
         items([one], tmp_path / "r.docx", "design", ["pdf"])
+    with pytest.raises(UsageError, match="unknown format docx; one or more of pdf,html,ipynb,json"):
+        items([one], None, "design", ["docx"])
     with pytest.raises(UsageError, match="2 reports are to be made: give a folder"):
         items([one, two], tmp_path / "r.pdf", "design", ["pdf"])
     (tmp_path / "sub").mkdir()

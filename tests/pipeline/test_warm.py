@@ -1,10 +1,12 @@
 """Forked kernels: the same bytes as fresh ones, nothing from one notebook to the next, and a way back."""
 
+import io
 import sys
 
 import pytest
 
-from loopbook.pipeline import verify, warm, warm_side
+from loopbook.pipeline import apply, verify, warm, warm_side
+from loopbook.pipeline.console import Console
 from loopbook.pipeline.surroundings import environment
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="kernels are forked on Linux only")
@@ -81,6 +83,23 @@ def test_a_library_that_warns_at_import_is_noticed(bench, monkeypatch, tmp_path)
     monkeypatch.setattr(warm_side, "PRELOADED", ("noisy_library", "not_installed"))
     monkeypatch.setenv("JPY_PARENT_PID", "")
     assert warm_side.preload() == ["old"]
+
+
+def test_what_is_made_ready_is_found_by_every_kernel(bench, forks, monkeypatch, tmp_path):
+    bench.module("shared_work.py", "done = []\n\ndef derive():\n    done.append(1)\n\ndef breaks():\n    1 / 0\n")
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_text("")
+    notebook = bench.write(
+        "own/uses", "# Uses", ('data: str = ""', "parameters"), "import shared_work\nshared_work.done"
+    )
+    wanted = apply.items([tmp_path / "a.csv", tmp_path / "b.csv"], None, "out", ["ipynb"])
+    console = Console(io.StringIO())
+    for ready, found, forked in (("shared_work:derive", "[1]", True), ("shared_work:breaks", "[]", False)):
+        forks.clear()
+        assert apply.apply(bench.project, notebook, wanted, [], console=console, ready=ready).code == 0
+        assert len(forks) == 2 and all(forks) == forked
+        for item in wanted:
+            assert f'"text/plain": "{found}"' in item.outputs["ipynb"].read_text(encoding="utf-8")
 
 
 def test_it_ends_with_the_build(bench):

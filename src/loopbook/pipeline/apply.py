@@ -4,20 +4,25 @@ Notebook and file are copied into a folder of their own, so that the report name
 and a notebook that writes something cannot touch the originals.
 """
 
+import json
 import shlex
 import shutil
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from loopbook.pipeline import atomic
-from loopbook.pipeline.build import OK, Outcome, _cores, _finish, _work
+from loopbook.pipeline.build import Outcome, _cores, _finish, _work
 from loopbook.pipeline.console import Console
-from loopbook.pipeline.job import Job, Wanted, plan
+from loopbook.pipeline.job import Done, Job, Wanted, plan, reporter
 from loopbook.pipeline.parameters import assign
 from loopbook.pipeline.project import Notebook, Project, UsageError
 from loopbook.pipeline.source import read_source
+
+FORMATS = ("pdf", "html", "ipynb", "json")
+FEW = 8  # reports that are named one by one
 
 
 @dataclass(frozen=True)
@@ -32,18 +37,21 @@ def items(files: Sequence[Path], target: Path | None, name: str, formats: Sequen
     """Where the reports go: beside each file as ``<file>-<name>.pdf``, into a folder, or for one file to a file.
 
     target: None, a folder, or a file that ends in one of the formats. Raises UsageError for a file that is not there,
-    for a target of another ending, and for two files whose reports would have one name.
+    for an unknown format or a target of another ending, and for two files whose reports would have one name.
     """
     missing = [str(f) for f in files if not f.is_file()]
     if missing:
         raise UsageError(f"no such file: {', '.join(missing)}")
     suffix = target.suffix.lstrip(".") if target is not None else ""
     if target is not None and suffix and not target.is_dir():
-        if suffix not in ("pdf", "html", "ipynb"):
-            raise UsageError(f"{target}: a report ends in .pdf, .html or .ipynb")
+        if suffix not in FORMATS:
+            raise UsageError(f"{target}: a report ends in .pdf, .html, .ipynb or .json")
         if len(files) > 1:
             raise UsageError(f"{target} is one file, {len(files)} reports are to be made: give a folder")
         return [Item(files[0], {suffix: target.resolve()})]
+    unknown = [f for f in formats if f not in FORMATS]
+    if unknown:
+        raise UsageError(f"unknown format {', '.join(unknown)}; one or more of {','.join(FORMATS)}")
     stems = [f.stem for f in files]
     if target is not None and len(set(stems)) < len(stems):
         raise UsageError("two files of one name cannot share a folder of reports")
@@ -64,15 +72,18 @@ def apply(
     timeout: float = 600,
     console: Console | None = None,
     repeat: Sequence[str] = ("loopbook", "design"),
+    ready: str = "",
 ) -> Outcome:
     """Run `notebook` once for each item, with `parameter` set to the item's file.
 
-    repeat: the command that did it, for the list of failures. Raises UsageError before any kernel starts.
+    repeat: the command that did it, for the list of failures. ready: ``module:function`` that computes, once for all
+    items, what each run would compute again; see `warm`. Raises UsageError before any kernel starts.
     """
     console = console or Console()
+    given = [word for name, value in parameters for word in ("-p", name, value)]
     with tempfile.TemporaryDirectory(prefix="loopbook") as temporary:
         todo: list[Job] = []
-        settings = Wanted(("pdf",), timeout=timeout)
+        settings = Wanted(("pdf",), timeout=timeout, exporter=_report)
         for i, item in enumerate(wanted):
             folder = Path(temporary) / str(i)
             folder.mkdir()
@@ -83,16 +94,39 @@ def apply(
             values = assign(source, [*parameters, (parameter, item.data.name)])
             job = plan(project, Notebook(item.data.stem, copied, own=False), source, values, settings)
             job.outputs = item.outputs
-            job.export_because = {format: ["asked for"] for format in item.outputs}
+            job.run_because, job.export_because = ["first build"], {f: ["first build"] for f in item.outputs}
             todo.append(job)
         for path in sorted({p.parent for job in todo for p in job.outputs.values()}):
             path.mkdir(parents=True, exist_ok=True)
             atomic.writable(path)
-        done = _work(project, todo, settings, jobs or _cores(), console)
-        again = {item.data.stem: shlex.join([*repeat, str(item.data)]) for item in wanted}
-        failures = [replace(f, repeat=again[f.notebook]) for d in done for f in d.failures]
-        outcome = _finish(project, done, failures, todo, console)
-    if outcome.code == OK:
-        for item in wanted:
-            console.line(f"      {', '.join(str(path) for path in item.outputs.values())}")
-    return outcome
+        done = _work(project, todo, settings, jobs or _cores(), console, ready)
+        files = {str(job.notebook.path): item.data for job, item in zip(todo, wanted, strict=True)}
+        failures = []
+        for one in done:
+            again = shlex.join([*repeat, str(files[str(one.notebook.path)]), *given])
+            failures += [replace(f, repeat=again) for f in one.failures]
+        _tell(todo, done, console)
+        return _finish(project, done, failures, todo, console)
+
+
+def _report(content: dict, format: str, *about: Any) -> bytes:
+    """A report in any of `FORMATS`; json is the data that the notebook shows as such."""
+    if format != "json":
+        return reporter()(content, format, *about)
+    for cell in content["cells"]:
+        for output in cell.get("outputs", ()):
+            if "application/json" in output.get("data", {}):
+                return (json.dumps(output["data"]["application/json"], indent=2, ensure_ascii=False) + "\n").encode()
+    raise LookupError("the notebook shows no data as JSON")
+
+
+def _tell(todo: Sequence[Job], done: Sequence[Done], console: Console) -> None:
+    """Where the reports are that were made."""
+    good = {one.notebook.path for one in done if not one.failures}
+    paths = [path for job in todo if job.notebook.path in good for path in job.outputs.values()]
+    if len(paths) <= FEW:
+        for path in paths:
+            console.line(f"      {path}")
+        return
+    for folder in sorted({path.parent for path in paths}):
+        console.line(f"      {sum(path.parent == folder for path in paths)} reports in {folder}")

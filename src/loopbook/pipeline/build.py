@@ -142,15 +142,20 @@ def _cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _work(project: Project, work: list[Job], wanted: Wanted, jobs: int, console: Console) -> list[Done]:
-    """Do the jobs, the longest first so that none is left alone at the end. Raises KeyboardInterrupt."""
+def _work(
+    project: Project, work: list[Job], wanted: Wanted, jobs: int, console: Console, ready: str = ""
+) -> list[Done]:
+    """Do the jobs, the longest first so that none is left alone at the end. Raises KeyboardInterrupt.
+
+    ready: see `warm`.
+    """
     if not work:
         return []
     work = sorted(work, key=lambda j: (-(j.stamp.seconds if j.stamp else 1e9), j.notebook.id))
     done: list[Done] = []
     with (
         _interruptible(),
-        _kernels(project, sum(bool(j.run_because) for j in work)),
+        _kernels(project, sum(bool(j.run_because) for j in work), ready),
         console.progress(len(work)),
         ThreadPoolExecutor(min(jobs, len(work))) as pool,
     ):
@@ -171,12 +176,13 @@ def _work(project: Project, work: list[Job], wanted: Wanted, jobs: int, console:
 
 
 @contextmanager
-def _kernels(project: Project, number: int):
+def _kernels(project: Project, number: int, ready: str = ""):
     """Import what runs notebooks, once, before the threads; meanwhile warm up what several kernels are forked from."""
     if not number:
         yield
         return
-    warming = Warm(environment(project.root, project.cache)) if number >= WORTH_WARMING and warm.possible() else None
+    worth = number >= WORTH_WARMING and warm.possible()
+    warming = Warm(environment(project.root, project.cache), ready) if worth else None
     import_nbformat()
     from loopbook.pipeline import kernels, run  # noqa: F401
 

@@ -201,7 +201,7 @@ def _export(project: Project, job: Job, wanted: Wanted, content: dict, format: s
     if format == "ipynb":
         atomic.write(path, dump(content))
         return []
-    export = wanted.exporter or _exporter()
+    export = wanted.exporter or reporter()
     try:
         atomic.write(path, export(content, format, notebook, job.source.title, wanted.engine))
     except EnvironmentProblem:
@@ -222,7 +222,8 @@ def _export(project: Project, job: Job, wanted: Wanted, content: dict, format: s
     return []
 
 
-def _exporter() -> Exporter:
+def reporter() -> Exporter:
+    """What writes reports, one at a time; see `export`."""
     import_nbformat()
     import nbformat
 

@@ -1,7 +1,9 @@
 """Kernels forked from one process that has the imports done: 2 s less for each notebook, the same results.
 
 Only on POSIX and only for several notebooks; wherever it does not work, a kernel is started as always. A library that
-warns when it is imported would warn in no notebook: then nothing is forked.
+warns when it is imported would warn in no notebook: then nothing is forked. Where many runs of one notebook would
+each compute the same, a function named `ready` ("module:function") computes it here once; it has to be pure, so that
+a kernel that finds it done gives the same bytes.
 """
 
 import json
@@ -66,11 +68,11 @@ class Forked:
 class Warm:
     """The process that forks. Starting it returns at once; the first `fork` waits until its imports are done."""
 
-    def __init__(self, env: dict[str, str]):
+    def __init__(self, env: dict[str, str], ready: str = ""):
         self._lock = threading.Lock()
         self._ready: bool | None = None
         ours, theirs = socket.socketpair()
-        command = [sys.executable, "-m", "loopbook.pipeline.warm_side"]
+        command = [sys.executable, "-m", "loopbook.pipeline.warm_side", *[ready] * bool(ready)]
         with theirs:
             self._process = subprocess.Popen(
                 command,

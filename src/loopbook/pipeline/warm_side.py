@@ -29,13 +29,22 @@ PRELOADED = (
 )
 
 
-def preload() -> list[str]:
-    """Import everything that is installed of `PRELOADED`; returns the warnings that a notebook would have shown."""
+def preload(ready: str = "") -> list[str]:
+    """Import everything that is installed of `PRELOADED`, then call `ready` ("module:function") if it is given.
+
+    Returns what speaks against forking: the warnings that a notebook would have shown, or why `ready` failed.
+    """
     os.environ["JPY_PARENT_PID"] = str(os.getpid())  # read when ipykernel is imported: kernels end with this process
     with warnings.catch_warnings(record=True) as said:
         for name in PRELOADED:
             if importlib.util.find_spec(name.partition(".")[0]) is not None:
                 importlib.import_module(name)
+        if ready:
+            module, _, function = ready.partition(":")
+            try:
+                getattr(importlib.import_module(module), function)()
+            except Exception as error:
+                return [f"{ready}: {error}"]
     return [str(w.message) for w in said]
 
 
@@ -80,7 +89,7 @@ def main() -> None:
     if sys.path[0] in ("", os.getcwd()):
         del sys.path[0]
     requests = socket.socket(fileno=os.dup(0))
-    said = preload()
+    said = preload(*sys.argv[1:2])
     requests.sendall(json.dumps({"warnings": said}).encode())
     gc.collect()
     gc.freeze()
