@@ -6,11 +6,12 @@ y and y_sp. Source: pid-report, section 4.2.6; it changes I so that P + I stays 
 
 from functools import cache
 
-from sympy import Eq, Expr, Symbol, collect, simplify, solve, symbols
+from sympy import Eq, Expr, Symbol, collect, symbols
 
 from derivations import pid_code as code
 from derivations.equivalence import one_pass, states_from
 from derivations.pid_laws import K, Td, Ti, b
+from derivations.rational import factored, solved_for, vanishes
 from derivations.rc_filter import Tf
 
 I_old, I_new = Symbol("I_old", real=True), Symbol("I_new", real=True)
@@ -25,7 +26,7 @@ def keep_p_plus_i() -> Eq:
     """Eq. 4.10: the I_new for which P + I is the same with the old and the new K and b."""
     proportional = next(a.value for a in code.separate().before if a.target == code.P)
     same = Eq(proportional.subs(OLD) + I_old, proportional.subs(NEW) + I_new)
-    return Eq(I_new, collect(solve(same, I_new)[0], [OLD[K], NEW[K]]))
+    return Eq(I_new, collect(solved_for(I_new, same).expand(), [OLD[K], NEW[K]]))
 
 
 def _changed(name: str, expr: Expr) -> Expr:
@@ -61,7 +62,7 @@ def jump(figure: str, setting: str, steady: bool, correct: bool = True) -> Expr:
         (),
     )
     after = equations.run({**symbols, **values})[code.v].subs(gains)
-    return simplify(after - before)
+    return factored(after - before)
 
 
 @cache
@@ -75,15 +76,15 @@ def keep_derivative(figure: str) -> dict[Symbol, Expr]:
     wanted = Symbol("y_fnew", real=True)
     gain_old, gain_new = code.derivative_gain().subs(OLD), code.derivative_gain().subs(NEW)
     same = Eq(gain_new * (wanted - code.y), gain_old * (code.yf_old - code.y))
-    filtered = solve(same, wanted)[0]
+    filtered = solved_for(wanted, same)
     states = states_from(figure, wanted, code.y_old)
-    new = {s: simplify(value.subs(NEW).subs(wanted, filtered)) for s, value in states.items()}
+    new = {s: factored(value.subs(NEW).subs(wanted, filtered)) for s, value in states.items()}
     if figure in ("4.12", "4.13"):
-        old_x = solve(Eq(code.x, gain_old * code.yf_old), code.yf_old)[0]
+        old_x = solved_for(code.yf_old, Eq(code.x, gain_old * code.yf_old))
         p24_old, p24_new = Symbol("p_24old"), Symbol("p_24new")
-        in_x = simplify(new[code.x].subs(code.yf_old, old_x))
+        in_x = new[code.x].subs(code.yf_old, old_x)
         shorter = code.x + (p24_new - p24_old) * code.y
-        if simplify(in_x - shorter.subs({p24_old: gain_old, p24_new: gain_new})) != 0:
+        if not vanishes(in_x - shorter.subs({p24_old: gain_old, p24_new: gain_new})):
             raise ArithmeticError(f"figure {figure}: the update of x is {in_x}")
         return {code.x: shorter}
     return new
@@ -106,7 +107,7 @@ def jump_after(figure: str) -> Expr:
     new = one_pass(program, placeholders)[code.v].subs(NEW)
     new = new.subs({placeholders[s]: value for s, value in new_states.items()})
     correction = keep_p_plus_i().rhs.subs(I_old, code.I)
-    return simplify(new.subs(code.I, correction) - old)
+    return factored(new.subs(code.I, correction) - old)
 
 
 @cache
@@ -114,7 +115,7 @@ def late_correction() -> Expr:
     """Extra jump where eq. 4.10 uses the measurement of the sample before, as the code figures do: the step of P."""
     share = next(a.value for a in code.separate().before if a.target == code.P)
     change = _changed("K", share) - share
-    return simplify(change - change.subs(code.y, code.y_old))
+    return factored(change - change.subs(code.y, code.y_old))
 
 
 @cache
@@ -131,4 +132,4 @@ def keep_both_parts() -> dict[Symbol, Expr]:
         code.x - p24_old * (code.y - c_old * code.ysp),
     )
     integral = keep_p_plus_i().rhs.subs(I_old, code.I)
-    return {code.x: collect(solve(slope, x_new)[0], [p24_old, p24_new]), code.I: integral}
+    return {code.x: collect(solved_for(x_new, slope).expand(), [p24_old, p24_new]), code.I: integral}

@@ -17,6 +17,7 @@ from sympy import Expr, Symbol, simplify
 
 from derivations import pid_code as code
 from derivations.pid_laws import K, Td
+from derivations.rational import factored
 from derivations.rc_filter import Tf
 
 
@@ -43,7 +44,7 @@ def one_pass(program: code.Program, states: Mapping[Symbol, Expr]) -> dict[Symbo
     free = {s: s for s in (code.y, code.ysp, code.I)}
     gains = program.gain_values()
     values = program.run({**free, code.u: code.u, **{p: p for p in gains}, **states})
-    return {name: value.subs(gains) for name, value in values.items() if hasattr(value, "subs")}
+    return {name: value.xreplace(gains) for name, value in values.items() if hasattr(value, "xreplace")}
 
 
 @cache
@@ -62,7 +63,7 @@ def residuals(figure: str) -> dict[str, Expr]:
         code.I: reference[code.I].subs(code.v, reference[code.v]),
         **states_from(figure, reference[code.yf_now], code.y),
     }
-    return {str(s): simplify(passed[s] - value) for s, value in expected.items()}
+    return {str(s): factored(passed[s] - value) for s, value in expected.items()}
 
 
 @cache
@@ -70,7 +71,7 @@ def filter_order_residual() -> Expr:
     """Filtering y before D or filtering D gives the same D: the difference between figures 4.9 and 4.11, zero."""
     first = one_pass(code.separate(), states_from("4.9", code.yf_old, code.y_old))[code.D]
     second = one_pass(code.merged(), states_from("4.11", code.yf_old, code.y_old))[code.Df]
-    return simplify(first - second)
+    return factored(first - second)
 
 
 def steady_derivative(gain: Expr) -> Expr:

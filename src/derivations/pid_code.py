@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 
-from sympy import Add, Eq, Expr, Piecewise, Symbol, collect, expand, simplify, symbols
+from sympy import Add, Eq, Expr, Piecewise, Symbol, collect, expand, factor, symbols
 
 from derivations import pid_updates as term
 from derivations.differences import BACKWARD, at, discretise
@@ -250,7 +250,7 @@ def state_gain() -> tuple[Expr, Expr]:
     (update,) = (a.value for a in program.after if a.target == x)
     (slope,) = (a.value for a in program.before if a.target == Df)
     combined = expand(update.xreplace({Df: slope}))
-    gain = simplify(combined.coeff(y).subs(program.gain_values()))
+    gain = factor(combined.coeff(y).subs(program.gain_values()))
     return Add(combined.coeff(x) * x, p4 * y), gain
 
 

@@ -4,7 +4,7 @@ SymPy's `simplify` and `solve` try many rules that a ratio of polynomials does n
 one fraction; it is zero where its multiplied-out numerator is, and a linear equation is solved by its coefficients.
 """
 
-from sympy import Eq, Expr, expand, factor, fraction, simplify, together
+from sympy import Eq, Expr, Mul, expand, factor, fraction, simplify, together
 from sympy.core.function import AppliedUndef
 
 
@@ -41,6 +41,19 @@ def vanishes(expr: Expr) -> bool:
     """
     numerator = _numerator(expr)
     return numerator == 0 or (not _is_rational(numerator) and simplify(expr) == 0)
+
+
+def factored(expr: Expr) -> Expr:
+    """One fraction in lowest terms and in factors, without a minus sign before a bracket.
+
+    >>> from sympy.abc import a, b, x
+    >>> factored((x - x**2) / (a * x + b * x)), factored(b / a - 1)
+    ((1 - x)/(a + b), (-a + b)/a)
+    """
+    expr = factor(expr)
+    sign, rest = expr.as_coeff_Mul()
+    sums = [part for part in Mul.make_args(rest) if part.is_Add]
+    return -sign * (rest / sums[0]) * expand(-sums[0]) if sign < 0 and sums else expr
 
 
 def solved_for(unknown: Expr, equation: Eq) -> Expr:

@@ -5,7 +5,7 @@ Source: pid-report, section 4.1 (circuit of figure 4.4) and section 5.1 (16 time
 
 from functools import cache
 
-from sympy import Eq, Expr, Function, I, Rational, Symbol, pi, simplify, solve, sqrt, symbols
+from sympy import Eq, Expr, Function, I, Rational, Symbol, expand, pi, simplify, solve, sqrt, symbols
 
 from derivations.differences import h, t
 
@@ -29,7 +29,7 @@ def circuit_law() -> Eq:
         [slope, current(t), V_R(t)],
         dict=True,
     )[0]
-    return Eq(R * C * slope, simplify(R * C * solved[slope]))
+    return Eq(R * C * slope, expand(R * C * solved[slope]))
 
 
 @cache

@@ -18,6 +18,7 @@ from functools import cache, cached_property
 import sympy as sp
 
 from derivations.delay_polynomials import Z, coefficients, polynomial
+from derivations.rational import factored
 
 S = sp.Symbol("s")
 T = sp.Symbol("t", positive=True)
@@ -126,7 +127,7 @@ def zero_order_hold(
     pulse = [sp.S.Zero] + [steps[i] - steps[i - 1] for i in range(1, last + 1)]
     b = [sum((a[j] * pulse[i - j] for j in range(min(i, len(a) - 1) + 1)), sp.S.Zero) for i in range(last + 1)]
     back = {x[p]: sp.exp(p * h) for p in x} | {y[p]: sp.exp(-p * part * h) for p in x if part != 0}
-    a, b = ([_real(_neat(c).subs(back)) for c in values] for values in (a, b))
+    a, b = ([_real(factored(c).subs(back)) for c in values] for values in (a, b))
     return Sampled(polynomial(a, z), polynomial(b, z), h, whole, part, z)
 
 
@@ -152,14 +153,6 @@ def _step_response(found: dict[sp.Expr, sp.Expr], h: sp.Expr, part: sp.Expr, x: 
         return total
 
     return lambda n: sum((integral(p, r, n) for p, r in found.items()), sp.S.Zero) if n > 0 else sp.S.Zero
-
-
-def _neat(c: sp.Expr) -> sp.Expr:
-    """One fraction in factors, without a minus sign before a bracket."""
-    c = sp.factor(sp.cancel(sp.together(c)))
-    sign, rest = c.as_coeff_Mul()
-    sums = [f for f in sp.Mul.make_args(rest) if f.is_Add]
-    return -sign * (rest / sums[0]) * sp.expand(-sums[0]) if sign < 0 and sums else c
 
 
 def _real(c: sp.Expr) -> sp.Expr:
