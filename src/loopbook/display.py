@@ -177,13 +177,19 @@ class Figure:
 def figure(fig: Any, caption: str, alt: str) -> Figure:
     """Turn a matplotlib figure into a captioned vector figure and close it.
 
-    The SVG keeps text as text (searchable, small) and carries no date and no random ids.
+    The SVG keeps text as text (searchable, small) and carries no date and no random ids. A figure whose layout keeps
+    everything on it (constrained, tight) is drawn once, as large as it is; any other is cut to what is drawn.
     """
     import matplotlib as mpl
     import matplotlib.pyplot as plt
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     buffer = io.StringIO()
+    told = {"Date": None, "Creator": None}
     with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "loopbook"}):
-        fig.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight")
+        if fig.get_layout_engine() is None:
+            fig.savefig(buffer, format="svg", metadata=told, bbox_inches="tight")
+        else:
+            FigureCanvasSVG(fig).print_svg(buffer, metadata=told)
     plt.close(fig)
     return Figure(buffer.getvalue(), caption, alt)

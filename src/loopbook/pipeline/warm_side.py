@@ -25,7 +25,11 @@ PRELOADED = (
     "scipy.interpolate",
     "scipy.integrate",
     "sympy",
+    "sympy.codegen.ast",
+    "sympy.physics.units.util",
+    "sympy.tensor.tensor",
     "matplotlib.pyplot",
+    "matplotlib.backends.backend_svg",
 )
 
 

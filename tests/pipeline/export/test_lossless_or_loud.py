@@ -137,7 +137,7 @@ def test_long_texts_in_a_table_are_wrapped(make):
         ["place", "the document says", "computed", "verdict"], rows, "Claims", ["left"] * 4, [words], ["note", "good"]
     )
     source = comes_out(make, make.notebook(make.code(claims)), "holds partly")
-    assert "words: (" in source and "narrow: true" not in source
+    assert '[#"statement";]' in source and f'[#"{"x" * 20}";]' in source, "what a column must hold is measured"
 
 
 def test_table_over_several_pages(make):

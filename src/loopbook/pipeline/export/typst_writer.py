@@ -10,6 +10,7 @@ import struct
 from dataclasses import dataclass, field
 
 from loopbook.pipeline.export.breaking import pieces
+from loopbook.pipeline.export.column_widths import TEXT_WIDTH, deciding, height, unbroken, words
 from loopbook.pipeline.export.highlighting import lines
 from loopbook.pipeline.export.maths import as_text, as_typst
 from loopbook.pipeline.export.model import (
@@ -53,12 +54,11 @@ IMPORT = '#import "report.typ": ' + ", ".join(
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
 LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
-WIDE_CHARACTER = 5.6
-"""Points that a character in a table takes at most, on average."""
-TEXT_WIDTH = 453
-"""Points between the margins of a page."""
+BREAKABLE_FROM = 208
+"""Points of height, by estimate, from which on a table may go on over pages: three tenths of a page."""
 _STYLES = {name: name for name in ("emph", "strong", "strike", "underline", "sub", "super")}
 _LONG_WORD = re.compile(r"\S{45,}")
+_UNBROKEN = re.compile(r"\S{60}")
 
 
 def literal(text: str) -> str:
@@ -152,7 +152,8 @@ class TypstWriter:
                 f"({''.join(f'({literal(kind)}, {literal(text)}),' for kind, text in row)})"
                 for row in lines(block.text, block.language)
             )
-        return f"#listing({literal(block.role)}, {literal(block.text)}, ({rows}{',' if rows else ''}){kept})"
+        long = ", long: true" if _UNBROKEN.search(block.text) else ""
+        return f"#listing({literal(block.role)}, {literal(block.text)}, ({rows}{',' if rows else ''}){kept}{long})"
 
     def bullets(self, block: Bullets) -> str:
         items = ", ".join(f"[{self.item(item, block.tight)}]" for item in block.items)
@@ -230,35 +231,41 @@ class TypstWriter:
         self.tables += 1
         id = f"{self.name} {self.tables}"
         where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
-        size = f"{grid.columns}, {grid.rows}, {grid.head_rows}"
-        narrow = ", narrow: true" if _surely_fits(grid) else ""
-        table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), (\n{cells},\n){narrow})"
+        size = f"{grid.rows}, {grid.head_rows}"
+        short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
+        body = f"(\n{cells},\n), {self.measured(grid)}, short: {short}"
+        table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), {body})"
         return f"#landscape[{table}]" if id in self.turned else table
 
+    def measured(self, grid: Grid) -> str:
+        """What the engine measures to know the columns: for each column cells by their place, and solid pieces."""
+        found = deciding(grid)
+        columns = []
+        for x in range(grid.columns):
+            pieces = []
+            for place in found.solid[x]:
+                cell = grid.cells[place]
+                pieces.append(f"{place}, " if unbroken(cell) else self._solid(cell.children))
+            columns.append(f"(({''.join(f'{place}, ' for place in found.widest[x])}), ({''.join(pieces)}))")
+        return f"({', '.join(columns)},)"
+
     def table_cell(self, cell: Cell) -> str:
-        """One cell; ``words``: its unbreakable pieces that may decide how narrow its column can be."""
         optional = ""
         if cell.colspan > 1 or cell.rowspan > 1:
             optional += f", colspan: {cell.colspan}, rowspan: {cell.rowspan}"
         if cell.mark:
             optional += f", mark: {literal(cell.mark)}"
-        text = plain(cell.children)
-        if len(text) > 12 and cell.colspan == 1:
-            optional += f", words: ({self._solid(cell.children)})"
         head = "true" if cell.head else "false"
         body = self.inline(cell.children)
         return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
 
     def _solid(self, nodes: list[Inline]) -> str:
-        words = re.split(
-            r"[\s\u200b]+|(?<=[-/–])", breakable(plain([n for n in nodes if not isinstance(n, Math | Code)]))
-        )
-        longest = max(words, key=len, default="")
+        """The pieces of a cell that no line end divides, the longest word and each formula."""
+        longest = max(words(breakable(plain([n for n in nodes if not isinstance(n, Math | Code)]))), key=len)
         parts = [f"[#{literal(longest)};]"] if longest else []
         for node in nodes:
             if isinstance(node, Code):
-                word = max(re.split(r"[\s\u200b]+|(?<=[-/–])", breakable(node.text)), key=len)
-                parts.append(f"[{self.node(Code(word))}]")
+                parts.append(f"[{self.node(Code(max(words(breakable(node.text)), key=len)))}]")
             elif isinstance(node, Math) and len(as_text(node.latex)) < LONG_FORMULA:
                 parts.append(f"[{self.node(node)}]")
             elif isinstance(node, Math):
@@ -278,18 +285,6 @@ class TypstWriter:
 
     def where(self, what: str) -> str:
         return literal(f"{self.cell}|{what}|")
-
-
-def _surely_fits(grid: Grid) -> bool:
-    """Is the table narrow enough for the page by a generous estimate, so that it need not be measured?"""
-    widest = [0] * grid.columns
-    for cell in grid.cells:
-        if any(isinstance(node, Break | Picture) for node in cell.children):
-            return False
-        share = len(plain(cell.children, "text")) // cell.colspan + 2
-        for x in range(cell.x, cell.x + cell.colspan):
-            widest[x] = max(widest[x], share)
-    return sum(widest) * WIDE_CHARACTER < TEXT_WIDTH
 
 
 def _lines(latex: str) -> list[str]:
