@@ -1,5 +1,6 @@
 """Every tuning rule of the project on one model: settings where a rule applies, its reason where it does not."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -47,6 +48,11 @@ def rules(model: Model) -> dict[str, Callable[[], Tuning]]:
         "MIGO, PI": lambda: migo.pi(up.process),
         "MIGO, PID": lambda: migo.pid(up.process),
     }
+    lags = (math.inf,) * model.integrating + up.lags
+    common |= {
+        "SIMC, PI": lambda: simc.reduced(up.gain, lags, up.delay),
+        "SIMC, PID": lambda: simc.reduced(up.gain, lags, up.delay, order=2),
+    }
     if model.integrating:
         pulse = lambda: _pulse(up)  # noqa: E731
         return {
@@ -56,7 +62,6 @@ def rules(model: Model) -> dict[str, Callable[[], Tuning]]:
             **common,
         }
     k, T, L = data.Kp, data.T, data.L
-    T1, T2 = (*up.lags, 0.0)[:2]
     closed = max(T, L)
     return {
         "Ziegler-Nichols step, PI": lambda: ziegler_nichols.step_method(k, T, L, "pi"),
@@ -70,8 +75,6 @@ def rules(model: Model) -> dict[str, Callable[[], Tuning]]:
         },
         "lambda, PI": lambda: lambda_tuning.settings(k, T, L, closed, "pi"),
         "lambda, PID": lambda: lambda_tuning.settings(k, T, L, closed, "pid"),
-        "SIMC, PI": lambda: simc.settings(k, T, L),
-        "SIMC, PID": lambda: _simc_pid(simc, k, T1, T2, up.delay),
         "AMIGO step, PI": lambda: amigo.pi_step(data),
         "AMIGO step, PID": lambda: amigo.pid_step(data),
         "AMIGO frequency, PI": lambda: amigo.pi_frequency(frequency(), k),
@@ -89,12 +92,6 @@ def _pulse(model: Model):
     from loopbook.experiments.data import IntegratingPulseData
 
     return IntegratingPulseData(model.gain, sum(model.lags), model.delay)
-
-
-def _simc_pid(simc, k: float, T1: float, T2: float, delay: float) -> Tuning:
-    if not T2:
-        raise RuleDoesNotApply("simc: derivative action needs a second lag; the model has one, for which SIMC gives PI")
-    return simc.settings(k, T1, delay, T2=T2)
 
 
 def candidates(model: Model) -> tuple[list[Candidate], list[Refused]]:
