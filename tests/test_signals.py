@@ -73,3 +73,20 @@ def test_shifted_and_cut():
 def test_errors(ask, error, says):
     with pytest.raises(error, match=says):
         ask()
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 25), st.floats(0.0, 2.0), st.floats(-1, 1))
+def test_roots_against_those_of_each_polynomial(seed, count, decay, level):
+    """Proved brackets and Newton's method give what the eigenvalues of the companion matrix give."""
+    rows = np.random.default_rng(seed).normal(size=(6, count)) * np.exp(-decay * np.arange(count))
+    edges = np.arange(7.0)
+    expected = []
+    for i, row in enumerate(rows):
+        x = np.atleast_1d(legendre.legroots(row - level * (np.arange(count) == 0))) if count > 1 else np.zeros(0)
+        expected.extend(i + (x[(abs(x.imag) < 1e-9) & (abs(x.real) < 1)].real + 1) / 2)
+    found = Signal(edges, rows).roots(level)
+    inside = found[~np.isin(found, edges)]
+    assert inside == pytest.approx(sorted(expected), abs=1e-8)
+    jumps = [j for j in range(1, 6) if (rows[j - 1].sum() - level) * (rows[j] @ (-1.0) ** np.arange(count) - level) < 0]
+    assert set(jumps) <= set(found)

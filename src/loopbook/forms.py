@@ -38,16 +38,12 @@ class _Form:
     def regulator(self) -> Regulator:
         """The polynomials T, S, R of R u = T r - S y."""
         p = self.parallel()
-        s_, one = np.array([1.0, 0.0]), np.array([1.0])
-        filter_ = np.array([p.Tf, 1.0]) if p.D and p.Tf else one
-        integrator = s_ if p.I else one
-        R = np.polymul(integrator, filter_)
+        Tf = p.Tf if p.D else 0.0
+        filter_, filter_s = np.array([0.0, Tf, 1.0]), np.array([Tf, 1.0, 0.0])
+        R, s_R = (filter_s, np.array([1.0, 0.0, 0.0])) if p.I else (filter_, np.array([0.0, 1.0, 0.0]))
 
         def numerator(b: float, c: float) -> tuple[float, ...]:
-            proportional = b * p.P * R
-            integral = p.I * filter_ if p.I else np.zeros(1)
-            derivative = c * p.D * np.polymul(s_, integrator)
-            return tuple(np.polyadd(np.polyadd(proportional, integral), derivative))
+            return tuple(b * p.P * R + p.I * filter_ + c * p.D * s_R)
 
         return Regulator(numerator(p.b, p.c), numerator(1.0, 1.0), tuple(R))
 

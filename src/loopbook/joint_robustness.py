@@ -7,13 +7,16 @@ The joint circle of that M (`derivations.robustness.joint_circle`) is the larges
 """
 
 import math
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 
+from loopbook import horner
 from loopbook.frequency import NoSuchFrequency, frequency_at
+from loopbook.loop_transfer import LoopTransfer
 from loopbook.process import Process
+from loopbook.stability import unstable_roots
 
 
 @cache
@@ -35,14 +38,20 @@ def joint_M(process: Process, regulator: Any) -> float:
     >>> round(joint_M(Process((1.0,), (1.0, 2.0, 1.0, 0.0)), PidStandard(K=0.5)), 4)
     1.971
     """
-    from loopbook.tuning.migo import is_stable
-
-    if not is_stable(process, regulator):
-        return math.inf
-    w = _grid(process)
     num, den = regulator.transfer()
-    curve = process(1j * w) * np.polyval(num, 1j * w) / np.polyval(den, 1j * w)
+    loop = LoopTransfer(tuple(np.convolve(num, process.num)), tuple(np.convolve(den, process.den)), process.delay)
+    if unstable_roots(loop):
+        return math.inf
+    w, response = _response(process)
+    curve = response * horner.value(num, 1j * w) / horner.value(den, 1j * w)
     return _peak(np.where(curve.real < 0, _at_point()(np.minimum(curve.real, 0.0), curve.imag), 1.0))
+
+
+@lru_cache(maxsize=160)
+def _response(process: Process) -> tuple[np.ndarray, np.ndarray]:
+    """The grid and the process's frequency response on it, kept for the other regulators of the same process."""
+    w = _grid(process)
+    return w, process(1j * w)
 
 
 def _grid(process: Process) -> np.ndarray:

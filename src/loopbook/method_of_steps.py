@@ -133,38 +133,35 @@ def cell_operator(system: DelayEquation, length: float) -> np.ndarray:
 
 
 def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> np.ndarray:
-    """Values of all outputs at every start and node, cell after cell: shape (segments, cells, p + 1, m)."""
-    n, m = len(system.A), len(system.C)
-    maps: dict[float, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+    """Values of all outputs at every start and node, cell after cell: shape (segments, cells, m, p + 1)."""
+    n, size = len(system.A), len(system.C) * (DEGREE + 1)
     keys = [float(f"{length:.13g}") for length in np.diff(mesh)]
-    for key in keys:
-        if key not in maps:
-            G = cell_operator(system, key)
-            maps[key] = _outputs(system, G)
-    values = np.empty((segments, len(keys), DEGREE + 1, m))
-    flat = values.reshape(segments, len(keys), (DEGREE + 1) * m)
-    x, v = np.zeros(n), np.zeros((len(keys), DEGREE + 1))
+    maps = {key: _outputs(system, cell_operator(system, key)) for key in set(keys)}
+    along = [maps[key] for key in keys]
+    rows = np.empty((segments, len(keys), size + n))
+    known = np.zeros(n + DEGREE + 2)
+    x, before, v, known[-1] = known[:n], np.zeros(n), known[n:-1], 1.0
     for k in range(segments):
-        for i, key in enumerate(keys):
-            from_x, from_v, constant = maps[key]
-            result = from_x @ x + from_v @ v[i] + constant
-            flat[k, i], x = result[: result.size - n], result[result.size - n :]
-        v = values[k, :, :, 0]
-    return values
+        for i, operator in enumerate(along):
+            x[:] = before
+            if k:
+                v[:] = rows[k - 1, i, : DEGREE + 1]
+            np.dot(operator, known, out=rows[k, i])
+            before = rows[k, i, size:]
+    return rows[:, :, :size].reshape(segments, len(keys), len(system.C), DEGREE + 1)
 
 
-def _outputs(system: DelayEquation, G: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Outputs at the start and the nodes of a cell, then x at its end, as maps of x, of v there, and of 1."""
+def _outputs(system: DelayEquation, G: np.ndarray) -> np.ndarray:
+    """Each output at the start and the nodes of a cell, then x at its end, as a map of x, of v there, and of 1."""
     n, p = len(system.A), DEGREE
     states = np.zeros((p + 1, n, n + p + 2))
     states[0, :, :n] = np.eye(n)
     states[1:, :, :n], states[1:, :, n + 1 : n + 1 + p], states[1:, :, -1] = G[:, :, :n], G[:, :, n:-1], G[:, :, -1]
-    outputs = np.einsum("mn,pnk->pmk", system.C, states)
+    outputs = (system.C @ states).transpose(1, 0, 2)
     for q in range(p + 1):
-        outputs[q, :, n + q] += system.D
-    outputs[:, :, -1] += system.f
-    both = np.vstack([outputs.reshape(-1, n + p + 2), states[-1]])
-    return np.ascontiguousarray(both[:, :n]), np.ascontiguousarray(both[:, n:-1]), both[:, -1].copy()
+        outputs[:, q, n + q] += system.D
+    outputs[:, :, -1] += system.f[:, None]
+    return np.vstack([outputs.reshape(-1, n + p + 2), states[-1]])
 
 
 def solve(system: DelayEquation, horizon: float) -> list[Signal]:
@@ -192,9 +189,9 @@ def solve(system: DelayEquation, horizon: float) -> list[Signal]:
             values = _march(system, mesh, segments)
         if not np.isfinite(values).all():
             raise ResponseError(f"the response grows beyond all numbers before t = {horizon:g} s: the loop is unstable")
-        coefficients = np.einsum("cq,kiqm->kicm", radau()[2], values)
-        scale = np.abs(values).max(axis=(0, 1, 2))
-        tail = np.abs(coefficients[:, :, -2:]).max(axis=(0, 2)) / np.where(scale > 0, scale, 1.0)
+        coefficients = values @ radau()[2].T
+        scale = np.abs(values).max(axis=(0, 1, 3))
+        tail = np.abs(coefficients[..., -2:]).max(axis=(0, 3)) / np.where(scale > 0, scale, 1.0)
         rough = tail.max(axis=1) > RESOLVED
         stalled = stalled + 1 if tail.max() > best / 4 else 0
         best = min(best, tail.max())
@@ -208,5 +205,4 @@ def solve(system: DelayEquation, horizon: float) -> list[Signal]:
         raise ResponseError(f"the response could not be resolved: relative error about {best:.1e}")
     starts = np.arange(segments)[:, None] * system.delay + mesh[:-1]
     edges = np.append(starts.ravel(), segments * system.delay if system.delay else horizon)
-    rows = coefficients.reshape(-1, DEGREE + 1, len(system.C))
-    return [Signal(edges, np.ascontiguousarray(rows[:, :, j])) for j in range(len(system.C))]
+    return [Signal(edges, coefficients[:, :, j].reshape(-1, DEGREE + 1)) for j in range(len(system.C))]

@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from loopbook import horner
+
 
 class ProcessError(ValueError):
     """A transfer function that cannot be a process; the message says which number and why."""
@@ -25,16 +27,18 @@ def coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
     >>> coefficients([0, 2, 1], "num")
     (2.0, 1.0)
     """
-    row = np.atleast_1d(np.asarray(values))
-    if row.ndim != 1 or row.size == 0:
+    row = np.asarray(values).tolist()
+    row = row if isinstance(row, list) else [row]
+    if not row or isinstance(row[0], list):
         raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
-    if np.iscomplexobj(row) or (row.dtype == object and not all(isinstance(c, numbers.Real) for c in row)):
+    if not all(isinstance(c, numbers.Real) for c in row):
         raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers")
-    row = row.astype(float)
-    if not np.isfinite(row).all():
+    row = [float(c) for c in row]
+    if not all(map(math.isfinite, row)):
         raise ProcessError(f"{name} = {values!r}: the coefficients must be finite")
-    nonzero = np.flatnonzero(row)
-    return tuple(row[nonzero[0] :].tolist()) if nonzero.size else (0.0,)
+    while len(row) > 1 and not row[0]:
+        del row[0]
+    return tuple(row) if row != [0.0] else (0.0,)
 
 
 @dataclass(frozen=True)
@@ -117,7 +121,7 @@ class Process:
 
     def __call__(self, s: Any) -> Any:
         s = np.asarray(s)
-        return np.polyval(self.num, s) / np.polyval(self.den, s) * np.exp(-self.delay * s)
+        return horner.value(self.num, s) / horner.value(self.den, s) * np.exp(-self.delay * s)
 
     def __mul__(self, other: "Process | float") -> "Process":
         if isinstance(other, Process):

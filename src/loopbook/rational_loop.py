@@ -37,9 +37,11 @@ def metrics(closed: Process) -> Any:
 
     The horizon is twelve times the slowest time constant. Raises ProcessError for poles that are not on the left.
     """
+    from loopbook.responses import open_loop_step
     from loopbook.step_metrics import exact
 
     slowest = -closed.poles.real.max()
     if not slowest > 0:
         raise ProcessError(f"the closed loop has a pole with real part {-slowest:.4g} 1/s: it does not settle")
-    return exact(closed.step, closed.static_gain, float(12 / slowest))
+    horizon = float(12 / slowest)
+    return exact(open_loop_step(closed, horizon), closed.static_gain, horizon)

@@ -9,7 +9,7 @@ The signal is zero before its first cell (the loop is at rest) and unknown after
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -47,7 +47,7 @@ class Signal:
     def end(self) -> float:
         return float(self.edges[-1])
 
-    @property
+    @cached_property
     def lengths(self) -> np.ndarray:
         """The length of each cell [s]."""
         return np.diff(self.edges)
@@ -60,15 +60,7 @@ class Signal:
             raise HorizonError(f"t = {t.max():g} s lies beyond the horizon, {self.end:g} s: ask for a longer one")
         cell = np.clip(np.searchsorted(self.edges, t, side="right") - 1, 0, len(self.coefficients) - 1)
         x = 2 * (t - self.edges[cell]) / self.lengths[cell] - 1
-        return np.where(t < self.start, 0.0, self._sum(np.moveaxis(self.coefficients[cell], -1, 0), x))
-
-    @staticmethod
-    def _sum(c: np.ndarray, x: np.ndarray) -> np.ndarray:
-        """Clenshaw's summation of a Legendre series with coefficients of its own for every x."""
-        after, last = np.zeros_like(x), np.zeros_like(x)
-        for k in range(len(c) - 1, 0, -1):
-            after, last = c[k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * last, after
-        return c[0] + x * after - 0.5 * last
+        return np.where(t < self.start, 0.0, _sum(np.moveaxis(self.coefficients[cell], -1, 0), x))
 
     def limit_before(self, time: float) -> float:
         """The value just before `time`: the left-hand side of a jump."""
@@ -91,15 +83,18 @@ class Signal:
 
     def on(self, edges: np.ndarray) -> "Signal":
         """The same signal on other cells, which must refine its own or cut it."""
-        nodes, to_coefficients = _sampling(self.coefficients.shape[1])
         middle = (edges[:-1] + edges[1:]) / 2
         cell = np.searchsorted(self.edges, middle, side="right") - 1
         known = (cell >= 0) & (cell < len(self.coefficients))
         cell = np.clip(cell, 0, len(self.coefficients) - 1)
-        t = middle[:, None] + np.diff(edges)[:, None] / 2 * nodes
-        x = 2 * (t - self.edges[cell][:, None]) / self.lengths[cell][:, None] - 1
-        values = self._sum(np.moveaxis(self.coefficients[cell], -1, 0)[:, :, None], x)
-        return Signal(edges, np.where(known[:, None], values, 0.0) @ to_coefficients.T)
+        rows = np.where(known[:, None], self.coefficients[cell], 0.0)
+        cut = np.flatnonzero(known & ((edges[:-1] != self.edges[cell]) | (edges[1:] != self.edges[cell + 1])))
+        if cut.size:
+            nodes, to_coefficients = _sampling(self.coefficients.shape[1])
+            t = middle[cut, None] + np.diff(edges)[cut, None] / 2 * nodes
+            x = 2 * (t - self.edges[cell[cut]][:, None]) / self.lengths[cell[cut]][:, None] - 1
+            rows[cut] = _sum(rows[cut].T[:, :, None], x) @ to_coefficients.T
+        return Signal(edges, rows)
 
     def __add__(self, other: "Signal | float") -> "Signal":
         if not isinstance(other, Signal):
@@ -143,27 +138,51 @@ class Signal:
         signs = (-1.0) ** np.arange(self.coefficients.shape[1])
         return self.coefficients @ signs, self.coefficients.sum(axis=1)
 
-    def _may_vanish(self) -> np.ndarray:
-        """The cells that may hold a zero, as indices: all others provably hold none, or nothing but rounding.
+    def _sorted_cells(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+        """Where the zeros are: brackets (cell, from, to) with one simple zero each, and the cells that prove less.
 
-        Between two nodes the value changes by at most the largest slope, sum |c_k| k(k+1)/2, times their distance.
+        In all other cells there is none, or nothing but rounding. Between two nodes the value departs from that at the
+        nearer one by at most sum |c_k| k(k+1)/2, the largest slope, times the distance; and the slope from its own
+        value there by sum |c_k| (k-1)k(k+1)(k+2)/8, the largest second derivative. So each gap between nodes is proved
+        free of zeros, or monotone, or neither.
         """
         rows = self.coefficients
         size = np.abs(rows).sum(axis=1)
         loud = np.flatnonzero((np.abs(rows[:, 0]) <= size - np.abs(rows[:, 0])) & (size > 1e-13 * size.max(initial=0)))
-        k = np.arange(rows.shape[1])
-        nodes = np.linspace(-1, 1, 2 * rows.shape[1] + 1)
-        values = rows[loud] @ legendre.legvander(nodes, len(k) - 1).T
-        slope = np.abs(rows[loud]) @ (k * (k + 1) / 2)
-        least = np.minimum(np.abs(values[:, 1:]), np.abs(values[:, :-1]))
-        free = (values[:, 1:] * values[:, :-1] > 0) & (least > slope[:, None] * (nodes[1] - nodes[0]) / 2)
-        return loud[~free.all(axis=1)]
+        nodes, to_values, to_slopes, steepest, sharpest = _nodes(rows.shape[1])
+        reach = (nodes[1] - nodes[0]) / 2
+        values, slopes = rows[loud] @ to_values, rows[loud] @ to_slopes
+        free = _keeps_sign(values, np.abs(rows[loud]) @ steepest * reach)
+        monotone = _keeps_sign(slopes, np.abs(rows[loud]) @ sharpest * reach)
+        proved = (free | monotone).all(axis=1)
+        at, gap = np.nonzero(proved[:, None] & ~free & (values[:, :-1] * values[:, 1:] <= 0))
+        return (loud[at], nodes[gap], nodes[gap + 1]), loud[~proved]
+
+    def _bracketed(self, cell: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """The zeros in the brackets, as x in [-1, 1], by Newton's method kept inside them."""
+        c = np.moveaxis(self.coefficients[cell], -1, 0)
+        slopes = legendre.legder(c)
+        rising = _sum(c, high) > _sum(c, low)
+        x = (low + high) / 2
+        for _ in range(60):
+            value = _sum(c, x)
+            above = (value > 0) == rising
+            low, high = np.where(above, low, x), np.where(above, x, high)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                newton = x - value / _sum(slopes, x)
+            after = np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
+            moved, x = np.abs(after - x).max(initial=0.0), after
+            if moved < 1e-15:
+                break
+        return x
 
     def roots(self, level: float = 0.0) -> np.ndarray:
         """All times where the signal equals `level` or jumps across it, ascending."""
         shifted = self - level
-        found = []
-        for i in shifted._may_vanish():
+        brackets, unproved = shifted._sorted_cells()
+        x = shifted._bracketed(*brackets) if brackets[0].size else np.zeros(0)
+        found = [*(self.edges[brackets[0]] + (x + 1) / 2 * self.lengths[brackets[0]])]
+        for i in unproved:
             row = shifted.coefficients[i]
             trimmed = legendre.legtrim(row, 1e-16 * np.abs(row).max())
             x = np.atleast_1d(legendre.legroots(trimmed))
@@ -227,6 +246,23 @@ class Signal:
         return float(np.abs(pieces.coefficients[:, 0]) @ pieces.lengths)
 
 
+def _sum(c: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """A Legendre series with coefficients of its own for every x; c: shape (p+1, ...).
+
+    A single x is summed in Python's numbers, which are faster than arrays of one.
+    """
+    if x.size == 1 and c.size == len(c):
+        return np.full(x.shape, _clenshaw(c.ravel().tolist(), x.item()))
+    return _clenshaw(c, x)
+
+
+def _clenshaw(c: Any, x: Any) -> Any:
+    after = last = 0 * x
+    for k in range(len(c) - 1, 0, -1):
+        after, last = c[k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * last, after
+    return c[0] + x * after - 0.5 * last
+
+
 def _first(t: np.ndarray, v: np.ndarray, measure: np.ndarray) -> tuple[float, float]:
     top = np.flatnonzero(measure >= measure.max() - 1e-13 * np.abs(v).max())
     i = top[np.argmin(t[top])]
@@ -236,6 +272,21 @@ def _first(t: np.ndarray, v: np.ndarray, measure: np.ndarray) -> tuple[float, fl
 def _padded(rows: np.ndarray, other: Signal) -> np.ndarray:
     missing = other.coefficients.shape[1] - rows.shape[1]
     return np.pad(rows, ((0, 0), (0, max(missing, 0))))
+
+
+def _keeps_sign(values: np.ndarray, departure: np.ndarray) -> np.ndarray:
+    """Between which neighbouring nodes a function keeps its sign that departs so far at most from the nearer value."""
+    same = values[:, :-1] * values[:, 1:] > 0
+    return same & (np.minimum(np.abs(values[:, :-1]), np.abs(values[:, 1:])) > departure[:, None])
+
+
+@cache
+def _nodes(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Equally spaced nodes, matrices from Legendre coefficients to values and slopes there, and max |P_k'|, |P_k''|."""
+    nodes, k = np.linspace(-1, 1, 2 * count + 1), np.arange(count)
+    values = legendre.legvander(nodes, count - 1)
+    slopes = values[:, : max(count - 1, 1)] @ legendre.legder(np.eye(count)) if count > 1 else np.zeros_like(values)
+    return nodes, values.T, slopes.T, k * (k + 1) / 2, (k - 1) * k * (k + 1) * (k + 2) / 8
 
 
 @cache

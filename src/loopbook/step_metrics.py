@@ -19,6 +19,9 @@ import numpy as np
 
 BAND = 0.02
 RISE = (0.1, 0.9)
+SECTIONS, FINEST = 32, 1e-8
+
+Progress = Callable[[np.ndarray], np.ndarray]
 
 
 class StepMetricsError(ValueError):
@@ -176,8 +179,8 @@ def exact(
             "final - y(0). For a disturbance response use its peak and integrals"
         )
 
-    def progress(s: float) -> float:
-        return float((np.asarray(y(np.array([s])), dtype=float)[0] - values[0]) / step)
+    def progress(s: np.ndarray) -> np.ndarray:
+        return (np.asarray(y(s), dtype=float) - values[0]) / step
 
     n = (values - values[0]) / step
     if abs(n[-1] - 1) > band:
@@ -198,38 +201,39 @@ def exact(
     )
 
 
-def _root(progress: Callable[[float], float], t: np.ndarray, i: int, level: float) -> float:
+def _root(progress: Progress, t: np.ndarray, i: int, level: float) -> float:
     """The crossing of the level between grid points i - 1 and i; at a jump, the jump."""
     from scipy.optimize import brentq
 
-    if i == 0 or progress(t[i - 1]) == level:
+    gap = lambda s: float(progress(np.array([s]))[0]) - level  # noqa: E731
+    if i == 0 or gap(t[i - 1]) == 0:
         return float(t[max(i - 1, 0)])
-    return float(brentq(lambda s: progress(s) - level, t[i - 1], t[i], xtol=1e-13 * t[-1], rtol=1e-14))
+    return float(brentq(gap, t[i - 1], t[i], xtol=1e-13 * t[-1], rtol=1e-14))
 
 
-def _extremum(progress: Callable[[float], float], t: np.ndarray, n: np.ndarray, sign: int) -> tuple[float, float]:
+def _extremum(progress: Progress, t: np.ndarray, n: np.ndarray, sign: int) -> tuple[float, float]:
     """Time and value of the largest (sign 1) or smallest (sign -1) n, refined between its neighbours on the grid."""
     return _refined(progress, t, n, int(np.argmax(sign * n)), sign)
 
 
-def _refined(progress: Callable[[float], float], t: np.ndarray, n: np.ndarray, i: int, sign: int):
-    from scipy.optimize import minimize_scalar
-
+def _refined(progress: Progress, t: np.ndarray, n: np.ndarray, i: int, sign: int) -> tuple[float, float]:
+    """The same from grid point i on: a finer grid around the best point, again and again, on either side of i."""
     best = (float(t[i]), float(n[i]))
     for a, b in ((i - 1, i), (i, i + 1)):
-        if a >= 0 and b < len(t):
-            found = minimize_scalar(
-                lambda s: -sign * progress(s),
-                bounds=(t[a], t[b]),
-                method="bounded",
-                options={"xatol": 1e-8 * (t[b] - t[a])},
-            )
-            if sign * progress(found.x) > sign * best[1]:
-                best = (float(found.x), progress(found.x))
+        if a < 0 or b == len(t):
+            continue
+        low, high = t[a], t[b]
+        while high - low > FINEST * (t[b] - t[a]):
+            s = np.linspace(low, high, SECTIONS + 1)
+            values = progress(s)
+            k = int(np.argmax(sign * values))
+            if sign * values[k] > sign * best[1]:
+                best = (float(s[k]), float(values[k]))
+            low, high = s[max(k - 1, 0)], s[min(k + 1, SECTIONS)]
     return best
 
 
-def _settling(progress: Callable[[float], float], t: np.ndarray, n: np.ndarray, band: float) -> float:
+def _settling(progress: Progress, t: np.ndarray, n: np.ndarray, band: float) -> float:
     """Last time the error leaves the band, with the extrema between grid points taken into account."""
     error = np.abs(n - 1)
     outside = np.flatnonzero(error > band)

@@ -56,11 +56,8 @@ def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: 
     switchings, y = [(0.0, level)], level * response(time)
 
     def output(t: float) -> float:
-        before, total = 0.0, 0.0
-        for instant, u in switchings:
-            total += (u - before) * float(response(t - instant))
-            before = u
-        return total
+        instants, levels = np.array(switchings).T
+        return float(np.diff(levels, prepend=0.0) @ response(t - instants))
 
     while len(switchings) < MOST_SWITCHINGS:
         up = switchings[-1][1] > 0
