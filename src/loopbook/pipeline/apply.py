@@ -100,11 +100,10 @@ def apply(
             path.mkdir(parents=True, exist_ok=True)
             atomic.writable(path)
         done = _work(project, todo, settings, jobs or _cores(), console, ready)
-        files = {str(job.notebook.path): item.data for job, item in zip(todo, wanted, strict=True)}
-        failures = []
-        for one in done:
-            again = shlex.join([*repeat, str(files[str(one.notebook.path)]), *given])
-            failures += [replace(f, repeat=again) for f in one.failures]
+        failed = {one.notebook.path for one in done if one.failures}
+        again = [str(item.data) for job, item in zip(todo, wanted, strict=True) if job.notebook.path in failed]
+        command = shlex.join([*repeat, *again, *given])
+        failures = [replace(f, repeat=command) for one in done for f in one.failures]
         _tell(todo, done, console)
         return _finish(project, done, failures, todo, console)
 

@@ -55,8 +55,8 @@ def extent(cell: Cell) -> float | None:
 
 
 def unbroken(cell: Cell) -> bool:
-    """Does the cell stay on one line: numbers, and a few letters?"""
-    return cell.align == "right" or len(plain(cell.children)) <= SHORT
+    """Does the cell stay on one line: numbers, verdicts and a few letters?"""
+    return cell.align == "right" or bool(cell.mark) or len(plain(cell.children)) <= SHORT
 
 
 def words(text: str) -> list[str]:

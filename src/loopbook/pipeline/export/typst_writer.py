@@ -52,12 +52,13 @@ IMPORT = '#import "report.typ": ' + ", ".join(
     )
 )
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
+LONGEST_WORD, LONGEST_CODE_IN_A_TABLE = 44, 16
+"""Characters of a word that is never broken."""
 LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 208
 """Points of height, by estimate, from which on a table may go on over pages: three tenths of a page."""
 _STYLES = {name: name for name in ("emph", "strong", "strike", "underline", "sub", "super")}
-_LONG_WORD = re.compile(r"\S{45,}")
 _UNBROKEN = re.compile(r"\S{60}")
 
 
@@ -71,17 +72,19 @@ def literal(text: str) -> str:
     return f'"{text}"'
 
 
-def breakable(text: str) -> str:
+def breakable(text: str, longest: int = LONGEST_WORD) -> str:
     """Give words too long for a line places to break, after punctuation or each 20 characters (zero width spaces)."""
 
     def mend(found: re.Match[str]) -> str:
         word = found[0]
+        if len(word) <= longest:
+            return word
         if re.match(r"https?://", word):
             return re.sub(r"(?<=[/?&=_.-])(?=[^/])", "\u200b", word)
-        word = re.sub(r"(?<=[,;:/_.=()\[\]{}|-])(?=\w)", "\u200b", word)
+        word = re.sub(r"(?<=[,;:/_.=()\[\]{}|*+-])(?=[\w(%])", "\u200b", word)
         return re.sub(r"[^\u200b]{20}(?=[^\u200b])", lambda m: m[0] + "\u200b", word)
 
-    return _LONG_WORD.sub(mend, text)
+    return re.sub(r"\S+", mend, text)
 
 
 @dataclass
@@ -100,6 +103,7 @@ class TypstWriter:
     files: dict[str, bytes] = field(default_factory=dict)
     cell: int = 0
     tables: int = 0
+    in_table: bool = False
 
     def report_cell(self, cell: ReportCell) -> str:
         """The source of one cell of the notebook, its anchor on its first block."""
@@ -174,7 +178,7 @@ class TypstWriter:
             case Text(text):
                 return f"#{literal(breakable(text))};" if text else ""
             case Code(text):
-                return f"#code({literal(breakable(text))});"
+                return f"#code({literal(self.code(text))});"
             case Math(latex):
                 return self.math(latex)
             case Styled(style, children):
@@ -193,6 +197,10 @@ class TypstWriter:
                 label = self.label(f"footnote-{number}")
                 return f"#[#footnote[{self.blocks(blocks)}]#{label}];" if blocks else f"#footnote({label});"
         raise TypeError(f"no Typst form for {type(node).__name__}")
+
+    def code(self, text: str) -> str:
+        """Code inside a line, with places to break; columns of a table are narrow."""
+        return breakable(text, LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_WORD)
 
     def math(self, latex: str) -> str:
         """A formula inside a line. A long one comes with its pieces, so that it is known whether lines can hold it."""
@@ -225,7 +233,9 @@ class TypstWriter:
         return f"#formula({self.where('a formula')}, {whole}, ({broken}), {label}, {anchor})"
 
     def grid(self, grid: Grid) -> str:
-        cells = ",\n".join(self.table_cell(cell) for cell in grid.cells)
+        self.in_table = True
+        cells, measured = ",\n".join(self.table_cell(cell) for cell in grid.cells), self.measured(grid)
+        self.in_table = False
         caption = f"[{self.inline(grid.caption)}]" if grid.caption else "none"
         notes = "".join(f"[{self.inline(note)}], " for note in grid.notes)
         self.tables += 1
@@ -233,7 +243,7 @@ class TypstWriter:
         where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.rows}, {grid.head_rows}"
         short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
-        body = f"(\n{cells},\n), {self.measured(grid)}, short: {short}"
+        body = f"(\n{cells},\n), {measured}, short: {short}"
         table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), {body})"
         return f"#landscape[{table}]" if id in self.turned else table
 
@@ -265,7 +275,7 @@ class TypstWriter:
         parts = [f"[#{literal(longest)};]"] if longest else []
         for node in nodes:
             if isinstance(node, Code):
-                parts.append(f"[{self.node(Code(max(words(breakable(node.text)), key=len)))}]")
+                parts.append(f"[{self.node(Code(max(words(self.code(node.text)), key=len)))}]")
             elif isinstance(node, Math) and len(as_text(node.latex)) < LONG_FORMULA:
                 parts.append(f"[{self.node(node)}]")
             elif isinstance(node, Math):
