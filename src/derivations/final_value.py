@@ -11,6 +11,8 @@ from functools import cache
 import sympy as sp
 from sympy import Expr
 
+from derivations.rational import solved_for
+
 s = sp.Symbol("s")
 k, T, Kp, Ti = sp.symbols("k T K_p T_i", positive=True)
 
@@ -25,8 +27,7 @@ def error_transfer(regulator: Expr, plant: Expr) -> Expr:
     (T*s + 1)/(K_p*k + T*s + 1)
     """
     e, w = sp.symbols("E W")
-    (solution,) = sp.solve(sp.Eq(e, w - plant * regulator * e), e)
-    return sp.factor(sp.simplify(solution / w))
+    return sp.factor(solved_for(e, sp.Eq(e, w - plant * regulator * e)) / w)
 
 
 def steady_state_error(regulator: Expr, plant: Expr, setpoint: Expr = STEP) -> Expr:
@@ -60,5 +61,4 @@ def gain_for_error() -> Expr:
     -1/k + 1/(e*k)
     """
     e = sp.Symbol("e", positive=True)
-    (gain,) = sp.solve(sp.Eq(e, steady_state_error(Kp, k / (1 + s * T))), Kp)
-    return sp.factor(gain)
+    return solved_for(Kp, sp.Eq(e, steady_state_error(Kp, k / (1 + s * T))))

@@ -14,6 +14,8 @@ from functools import cache
 import sympy as sp
 from sympy import Expr
 
+from derivations.rational import solved_for
+
 s = sp.Symbol("s")
 y, v, u = sp.symbols("y v u", positive=True)
 y0 = sp.Symbol("y_0", positive=True)
@@ -37,8 +39,8 @@ def static_output() -> Expr:
     >>> static_output()
     u**2
     """
-    (solution,) = sp.solve(acceleration().subs(v, 0), y)
-    return solution
+    root = sp.Symbol("root", nonnegative=True)
+    return solved_for(root, sp.Eq(acceleration().subs(v, 0).subs(sp.sqrt(y), root), 0)) ** 2
 
 
 @cache
@@ -48,8 +50,7 @@ def static_input() -> Expr:
     >>> static_input()
     sqrt(y_0)
     """
-    (solution,) = sp.solve(acceleration().subs({v: 0, y: y0}), u)
-    return solution
+    return solved_for(u, sp.Eq(acceleration().subs({v: 0, y: y0}), 0))
 
 
 @cache
@@ -105,7 +106,7 @@ def _characteristic(extra: Expr) -> Expr:
     """
     output, control = sp.symbols("Y U")
     law = sp.Eq(control, -K * (1 + Td * s + 1 / (Ti * s)) * output + extra * output)
-    (feedback,) = sp.solve(law, control)
+    feedback = solved_for(control, law)
     numerator = sp.numer(sp.together(output / linear_model() - feedback))
     polynomial = sp.Poly(sp.expand(numerator / output), s)
     return sp.collect(sp.expand(polynomial.as_expr() / polynomial.LC()), s)

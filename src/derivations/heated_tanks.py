@@ -11,6 +11,8 @@ from functools import cache
 
 import sympy as sp
 
+from derivations.rational import solved_for
+
 s = sp.Symbol("s")
 Q, c, rho = sp.symbols("Q c rho", positive=True)
 V1, Vr, V2 = sp.symbols("V_1 V_r V_2", positive=True)
@@ -25,7 +27,7 @@ def mixed_tank(volume: sp.Expr, inlet: sp.Expr, power: sp.Expr = sp.S.Zero) -> s
     """
     T = sp.Symbol("T")
     balance = sp.Eq(rho * c * volume * s * T, rho * c * Q * (inlet - T) + power)
-    return sp.solve(balance, T)[0]
+    return solved_for(T, balance)
 
 
 def pipe(inlet: sp.Expr) -> sp.Expr:

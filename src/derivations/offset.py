@@ -5,9 +5,10 @@ Source: pid-report, sections 3.1 and 3.2.3: u = K (y_sp - y) + u_b.
 
 from functools import cache
 
-from sympy import Eq, Expr, Symbol, limit, oo, simplify, solve, symbols
+from sympy import Eq, Expr, Symbol, limit, oo, solve, symbols
 
 from derivations.pid_laws import K, b
+from derivations.rational import factored, solved_for
 
 y, ysp, u_b, load, speed_0, u_0 = symbols("y y_sp u_b d v_0 u_0", real=True)
 gain = Symbol("G", positive=True)
@@ -22,13 +23,13 @@ def output(measured: Expr = y, wanted: Expr = ysp) -> Expr:
 @cache
 def rest_linear() -> Expr:
     """y at rest for a process y = G u + d: (G K y_sp + G u_b + d) / (1 + G K)."""
-    return solve(Eq(y, gain * output() + load), y)[0]
+    return solved_for(y, Eq(y, gain * output() + load))
 
 
 @cache
 def error_linear() -> Expr:
     """y_sp - y at rest; it tends to 0 for K -> oo and is 0 for one u_b only."""
-    return simplify(ysp - rest_linear())
+    return factored(ysp - rest_linear())
 
 
 @cache
@@ -40,7 +41,7 @@ def error_at_infinite_gain() -> Expr:
 @cache
 def offset_needed() -> Expr:
     """The u_b that makes the error zero: it depends on the set-point and the load."""
-    return solve(Eq(error_linear(), 0), u_b)[0]
+    return solved_for(u_b, Eq(error_linear(), 0))
 
 
 @cache
@@ -52,16 +53,16 @@ def rest_drag() -> Expr:
 def _loop(setpoint: Expr, disturbance: Expr) -> Expr:
     """y of the loop y = G (u + d), u = K (b y_sp - y) + R (y_sp - y)."""
     u = K * (b * setpoint - y) + integral_action * (setpoint - y)
-    return solve(Eq(y, process * (u + disturbance)), y)[0]
+    return solved_for(y, Eq(y, process * (u + disturbance)))
 
 
 @cache
 def setpoint_transfer() -> Expr:
     """y / y_sp with set-point weight b."""
-    return simplify(_loop(ysp, 0) / ysp)
+    return _loop(ysp, 0) / ysp
 
 
 @cache
 def load_transfer() -> Expr:
     """y / d with set-point weight b: b is not in it."""
-    return simplify(_loop(0, load) / load)
+    return _loop(0, load) / load

@@ -10,6 +10,8 @@ from functools import cache
 import sympy as sp
 from sympy import Expr
 
+from derivations.rational import solved_for
+
 h, Kp, Ti, Td = sp.symbols("h Kp Ti Td", positive=True)
 e, last, older, total, manual = sp.symbols("e last older total manual", real=True)
 """e(i), e(i-1), e(i-2) and the sum up to and including e(i); manual: the control signal in force before automatic."""
@@ -49,7 +51,7 @@ def law() -> Expr:
 def transfer() -> Expr:
     """U(z)/E(z): the integral 1/s became h z/(z - 1), the derivative s became (z - 1)/(h z)."""
     substituted = law().subs({total: e * z / (z - 1), last: e / z})
-    return sp.simplify(substituted / e)
+    return sp.together(substituted / e)
 
 
 @cache
@@ -74,5 +76,4 @@ def bumpless_total() -> Expr:
     """
     stored = sp.Symbol("stored", real=True)
     first = (terms()["P"] + terms()["I"]).subs(total, stored + e)
-    (solution,) = sp.solve(sp.Eq(first, manual), stored)
-    return sp.together(solution)
+    return solved_for(stored, sp.Eq(first, manual))

@@ -57,7 +57,7 @@ def factored(expr: Expr) -> Expr:
 
 
 def solved_for(unknown: Expr, equation: Eq) -> Expr:
-    """The unknown (a symbol or a sample) of an equation that is linear in it, as one fraction in factors.
+    """The unknown (a symbol or a sample) of an equation that is linear in it, `factored`.
 
     Symbols stand for generic values: the solution holds where its denominator is not zero.
     Raises NotLinear where the equation, cleared of fractions, is not linear in the unknown or does not hold it.
@@ -71,4 +71,4 @@ def solved_for(unknown: Expr, equation: Eq) -> Expr:
     rest = expand(numerator - slope * unknown)
     if slope == 0 or rest.has(unknown) or slope.has(unknown):
         raise NotLinear(equation, unknown)
-    return factor(-rest / slope)
+    return factored(-rest / slope)

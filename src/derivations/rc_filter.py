@@ -8,6 +8,7 @@ from functools import cache
 from sympy import Eq, Expr, Function, I, Rational, Symbol, expand, pi, simplify, solve, sqrt, symbols
 
 from derivations.differences import h, t
+from derivations.rational import solved_for
 
 R, C, Tf, omega, attenuation = symbols("R C T_f omega a", positive=True)
 V_in, V_out, current, V_R = (Function(name) for name in ("V_in", "V_out", "I", "V_R"))
@@ -20,16 +21,9 @@ def circuit_law() -> Eq:
     The three laws: capacitor I = C V_out', Ohm V_R = R I, Kirchhoff V_in - V_R - V_out = 0.
     """
     slope = V_out(t).diff(t)
-    solved = solve(
-        [
-            Eq(current(t), C * slope),
-            Eq(V_R(t), R * current(t)),
-            Eq(V_in(t) - V_R(t) - V_out(t), 0),
-        ],
-        [slope, current(t), V_R(t)],
-        dict=True,
-    )[0]
-    return Eq(R * C * slope, expand(R * C * solved[slope]))
+    kirchhoff = Eq(V_in(t) - V_R(t) - V_out(t), 0)
+    without_current = kirchhoff.subs(V_R(t), R * current(t)).subs(current(t), C * slope)
+    return Eq(R * C * slope, expand(R * C * solved_for(slope, without_current)))
 
 
 @cache
@@ -45,7 +39,7 @@ def transfer() -> Expr:
     law = circuit_law().subs(R, Tf / C)
     phasor = Symbol("phasor")
     steady = law.subs(V_out(t).diff(t), I * omega * phasor).subs({V_out(t): phasor, V_in(t): 1})
-    return simplify(solve(steady, phasor)[0])
+    return 1 / expand(1 / solved_for(phasor, steady))
 
 
 @cache

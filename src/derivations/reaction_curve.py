@@ -13,6 +13,8 @@ from functools import cache
 import sympy
 from sympy import Expr, Symbol, exp, symbols
 
+from derivations.rational import solved_for
+
 K_p, K_v, T, L, t, width = symbols("K_p K_v T L t w", positive=True)
 du = Symbol("Delta_u", nonzero=True)
 dy = Symbol("Delta_y", nonzero=True)
@@ -42,7 +44,7 @@ def fraction_at_T63() -> Expr:
     >>> fraction_at_T63()
     1 - exp(-1)
     """
-    return sympy.simplify(stable_step().subs(t, L + T) / (K_p * du))
+    return stable_step().subs(t, L + T) / (K_p * du)
 
 
 @cache
@@ -74,7 +76,7 @@ def velocity_gain() -> Expr:
     """
     crossing = Symbol("L", positive=True)
     line = K_v * du * (t - crossing)
-    return sympy.solve(-line.subs(t, 0) - dy, K_v)[0]
+    return solved_for(K_v, sympy.Eq(-line.subs(t, 0), dy))
 
 
 @cache
@@ -86,7 +88,7 @@ def velocity_gain_from_slope() -> Expr:
     """
     rise, run = symbols("Delta_y_tan Delta_t_tan", positive=True)
     slope = sympy.diff(final_tangent(), t)
-    return sympy.solve(slope - rise / run, K_v)[0]
+    return solved_for(K_v, sympy.Eq(slope, rise / run))
 
 
 @cache

@@ -40,7 +40,7 @@ def array(polynomial: Expr, variable: sp.Symbol = s) -> sp.Matrix:
         if last[0] == 0:
             raise ZeroDivisionError(f"the array's first column has a zero above the row of {variable}**{power}")
         cross = [last[0] * above[j + 1] - above[0] * last[j + 1] for j in range(width - 1)]
-        rows.append([sp.simplify(c / last[0]) for c in cross] + [sp.Integer(0)])
+        rows.append([sp.factor(c / last[0]) for c in cross] + [sp.Integer(0)])
     return sp.Matrix(rows[: len(coefficients)])
 
 

@@ -5,11 +5,12 @@ Source: pid-report, sections 4.2.3 and 4.2.5. The recursion is eq. 4.5 with v = 
 
 from functools import cache
 
-from sympy import Eq, Expr, Rational, Symbol, simplify, solve, sqrt, symbols
+from sympy import Eq, Expr, Rational, Symbol, factor, sqrt, symbols
 
 from derivations import pid_updates as term
 from derivations.differences import at, by_signals
 from derivations.pid_laws import Td, Ti
+from derivations.rational import solved_for
 
 rest, imposed, error, spike = symbols("r u_out e s", real=True)  # r = P + D
 
@@ -31,15 +32,15 @@ def pole() -> Expr:
 @cache
 def bump() -> Expr:
     """v - u_out that tracking settles at for a constant error: K T_t / T_i e. Zero only for e = 0."""
-    steady = solve(Eq(at("I"), recursion()), at("I"))[0]
-    return simplify(steady + rest - imposed)
+    steady = solved_for(at("I"), Eq(at("I"), recursion()))
+    return factor(steady + rest - imposed)
 
 
 @cache
 def exact_integral() -> Expr:
     """The I for which v equals the output at once, whatever e is: u_out - r."""
     state = Symbol("I", real=True)
-    return solve(Eq(state + rest, imposed), state)[0]
+    return solved_for(state, Eq(state + rest, imposed))
 
 
 @cache
@@ -47,7 +48,7 @@ def spike_effect() -> Expr:
     """Change of I by one sample whose v lies s above the limit: -h s / T_t. With T_t = h all of it."""
     update = term.integral_tracking().full().rhs
     quiet = update.subs(at("u"), at("v"))
-    return simplify((update - quiet).subs(at("v"), at("u") + spike))
+    return factor((update - quiet).subs(at("v"), at("u") + spike))
 
 
 def rule(derivative_time: Expr = Td, integral_time: Expr = Ti) -> Expr:

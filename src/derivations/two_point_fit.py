@@ -11,6 +11,8 @@ from functools import cache
 import sympy as sp
 from sympy import Expr
 
+from derivations.rational import solved_for
+
 t, t1, t2, T, T0, tau = sp.symbols("t t_1 t_2 T T_0 tau", positive=True)
 p1, p2 = sp.symbols("p_1 p_2", positive=True)
 
@@ -26,14 +28,16 @@ def rise(p: Expr = p1) -> Expr:
     -T*log(1 - p_1) + T_0
     """
     left = sp.Symbol("q", positive=True)
-    (instant,) = sp.solve(sp.Eq(sp.exp(-tau), left), tau)
-    return T0 + T * sp.expand_log(instant, force=True).subs(left, 1 - p)
+    instant = solved_for(tau, sp.Eq(sp.log(sp.exp(-tau)), sp.log(left)))
+    return T0 + T * instant.subs(left, 1 - p)
 
 
 @cache
 def fit() -> dict[sp.Symbol, Expr]:
     """T and T0 from t1 and t2 for any two parts p1 > p2."""
-    return sp.solve([sp.Eq(t1, rise(p1)), sp.Eq(t2, rise(p2))], [T, T0], dict=True)[0]
+    start = solved_for(T0, sp.Eq(t2, rise(p2)))
+    constant = solved_for(T, sp.Eq(t1, rise(p1)).subs(T0, start))
+    return {T: constant, T0: sp.factor(start.subs(T, constant))}
 
 
 @cache
@@ -43,7 +47,7 @@ def fit_283_632() -> dict[sp.Symbol, Expr]:
     >>> fit_283_632()[T], sp.expand(fit_283_632()[T0] - (t1 - fit_283_632()[T]))
     (3*t_1/2 - 3*t_2/2, 0)
     """
-    return {name: sp.expand(sp.simplify(e.subs(FRACTIONS))) for name, e in fit().items()}
+    return {name: sp.expand(e.subs(FRACTIONS)) for name, e in fit().items()}
 
 
 @cache

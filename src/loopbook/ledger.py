@@ -374,10 +374,12 @@ def _digits_shown(digits: str) -> int:
 def _proves(item: printed_data.Misprint, derived: Any) -> bool:
     import sympy
 
+    from derivations.rational import vanishes
+
     names = {symbol.name: symbol for symbol in derived.free_symbols}
 
-    def distance(text: str) -> Any:
+    def equal(text: str) -> bool:
         read = sympy.sympify(text, locals=names, rational=True)
-        return sympy.simplify(read.subs({s: names.get(s.name, s) for s in read.free_symbols}) - derived)
+        return vanishes(read.subs({s: names.get(s.name, s) for s in read.free_symbols}) - derived)
 
-    return distance(item.printed_expr) != 0 and distance(item.corrected_expr) == 0
+    return not equal(item.printed_expr) and equal(item.corrected_expr)
