@@ -67,7 +67,8 @@ def test_many_files_show_progress_and_end_with_the_folder_and_every_failure(benc
     assert said.count("ok    r") == 10 and said.count("FAIL  r") == 2
     last = said[said.index("2 failed:") :]
     assert "r03, cell 3: ValueError" in last and "r08, cell 3: ValueError" in last
-    assert "12/12" in capsys.readouterr().err
+    assert f"Repeat: loopbook design {files[3]} {files[8]}" in last
+    assert "/12 |" in capsys.readouterr().err
 
 
 def test_the_command_that_repeats_a_failure_has_its_parameters(bench, tmp_path):

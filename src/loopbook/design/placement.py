@@ -65,6 +65,19 @@ def placements(model: Model, time_constant: float, h: float = 0.0) -> list[Place
     return [placed(model, speed * time_constant, h or interval(model)) for speed in SPEEDS]
 
 
+def polynomials(found: list[Placed]) -> Table:
+    """The regulators to use: the coefficients of 1, z^-1, z^-2, ... in R u = T r - S y."""
+    rows = [
+        [number(p.closed, 3), letter, ",  ".join(number(c, 7) for c in getattr(p.regulator, letter.strip("$")))]
+        for p in found
+        if p.regulator
+        for letter in ("$R$", "$S$", "$T$")
+    ]
+    heads = ["closed [s]", "", "coefficients of $1, z^{-1}, z^{-2}, ...$"]
+    rows = rows or [["–", "–", "no placement was found"]]
+    return Table(heads, rows, "The regulators $R u = T r - S y$", ["right", "left", "left"])
+
+
 def table(found: list[Placed]) -> Table:
     """The placements side by side."""
     rows, marks = [], []

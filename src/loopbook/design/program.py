@@ -1,6 +1,5 @@
 """The regulator as it goes into a controller: sampling interval, filter, coefficients, listing, JSON."""
 
-import json
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -50,9 +49,6 @@ class SampledProgram:
         numbers = {name: float(getattr(s, name)) for name in names if getattr(s, name) is not None}
         limits = {n: (float(v) if math.isfinite(v) else None) for n, v in (("u_low", s.u_low), ("u_high", s.u_high))}
         return {"form": "standard", "settings": numbers, "limits": limits, "gains": self.gains}
-
-    def json(self) -> str:
-        return json.dumps(self.data(), indent=2)
 
 
 def round_down(value: float) -> float:

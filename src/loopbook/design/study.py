@@ -4,13 +4,14 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from loopbook.design import candidates as rules
 from loopbook.design import evaluation
 from loopbook.design.model import Model, ModelError, from_identified, read_toml
 
 if TYPE_CHECKING:
+    from loopbook.design.placement import Placed
     from loopbook.design.program import SampledProgram
     from loopbook.design.recommendation import Recommendation
     from loopbook.display import Table
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     from loopbook.simulation import Simulation
 
 VARIATIONS = 20
+EXPECTED = (
+    *("Ms", "Mt", "gain_margin", "phase_margin", "delay_margin", "iae_reference", "iae_load"),
+    *("overshoot", "settling", "peak_input", "variation", "noise_gain"),
+)
 
 
 @dataclass(frozen=True)
@@ -105,6 +110,13 @@ class Study:
         return recommend(self.evaluations, self.aim, self.spread)
 
     @cached_property
+    def placements(self) -> "list[Placed]":
+        """Pole placements for the sampled model, at the given sampling interval or one of their own."""
+        from loopbook.design.placement import placements
+
+        return placements(self.model, self.time_constant, self.h)
+
+    @cached_property
     def rest(self) -> tuple[float, float]:
         """(u, y) at rest before the first step of the record; (0, 0) for a model."""
         if self.identified is None:
@@ -166,6 +178,28 @@ class Study:
         """The recommended loop and the next best for the aim, five at most."""
         chosen = self.recommendation.chosen
         return [chosen, *[e for e in self.recommendation.admitted if e is not chosen][:4]]
+
+    def results(self) -> dict[str, Any]:
+        """The design as plain data: process, rule, the program's numbers, what to expect, what to mind.
+
+        Units: seconds, rad/s, degrees, those of the record. null stands for infinite and for unknown.
+        """
+        chosen, model = self.recommendation.chosen, self.model
+        names = ("gain", "time_constants", "delay", "integrating")
+        process = dict(zip(names, (model.gain, list(model.lags), model.delay, model.integrating), strict=True))
+        expected = {name: getattr(chosen, name) for name in EXPECTED}
+        found = self.identified
+        fit = {"percent": found.chosen.fit, "rms": found.chosen.rmse} if found else None
+        intervals = {p.name: list(p.interval) for p in found.chosen.parameters} if found else None
+        return {
+            "data": Path(self.data).name,
+            "process": {**process, "source": model.source, "fit": fit, "intervals_95": intervals},
+            "aim": self.aim,
+            "rule": chosen.candidate.name,
+            **self.program.data(),
+            "expected": {name: float(v) if math.isfinite(v) else None for name, v in expected.items()},
+            "mind": [*(found.warnings if found else ()), *chosen.candidate.notes],
+        }
 
     def summary(self) -> "Table":
         """The design on one page."""

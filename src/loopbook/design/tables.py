@@ -10,6 +10,7 @@ from loopbook.design.recommendation import Recommendation
 from loopbook.design.study import Study
 from loopbook.display import Table, number
 from loopbook.identification.graphical import readings
+from loopbook.identification.least_squares import Parameter
 
 
 def _shown(value: float, digits: int = 3) -> str:
@@ -34,12 +35,19 @@ def fits(study: Study) -> Table:
     found = study.identified
     rows, marks = [], []
     for structure, fit in found.fits.items():
-        values = [f"{p.name} = {number(p.value, 4)} ± {number(p.half_width, 2)}" for p in fit.parameters]
+        values = [_estimate(p, found.record.sampling) for p in fit.parameters]
         numbers = (number(fit.fit, 4), number(fit.rmse, 3), number(found.criteria[structure], 3))
         rows.append([structure.name, ", ".join(values), *numbers])
         marks.append("good" if fit is found.chosen else "")
-    heads = ["model", "parameters with 95 % intervals", "fit [%]", "rms residual", "Akaike, above the best"]
+    heads = ["model", "parameters with 95 % intervals, times in s", "fit [%]", "rms residual", "Akaike, above the best"]
     return Table(heads, rows, "Models fitted to the record", ["left", "left", "right", "right", "right"], (), marks)
+
+
+def _estimate(parameter: Parameter, sampling: float) -> str:
+    """An estimate with its interval, or that the record says nothing of it."""
+    if parameter.half_width > 10 * max(abs(parameter.value), sampling):
+        return f"{parameter.name} not determined"
+    return f"{parameter.name} = {number(parameter.value, 4)} ± {number(parameter.half_width, 2)}"
 
 
 def choice(study: Study) -> Table:
@@ -73,18 +81,26 @@ def recommendation(found: Recommendation) -> Table:
 
 def summary(study: Study) -> Table:
     """The design on one page: model, regulator, what to expect."""
-    e, program = study.recommendation.chosen, study.program
+    e, program, found = study.recommendation.chosen, study.program, study.identified
     pid = e.candidate.pid
     times = f"$T_i$ = {number(pid.Ti, 4)} s, $T_d$ = {number(pid.Td, 4)} s, $b$ = {number(pid.b, 3)}"
+    margins = f"phase margin {number(e.phase_margin, 3)}°, delay margin {number(e.delay_margin, 3)} s"
+    explains = f", explains {found.chosen.fit:.1f} % of the response" if found else ""
     rows = [
         ["process", f"${study.model.latex()}$"],
-        ["rule", f"{e.candidate.name}, for the aim {study.aim}"],
+        ["known from", f"{study.model.source}{explains}"],
+        ["rule", f"{e.candidate.name}, recommended for the aim {study.aim}"],
         ["settings", f"$K$ = {number(pid.K, 4)}, {times}"],
-        ["sampling interval", f"{number(program.settings.h, 4)} s"],
-        ["robustness", f"$M_s$ = {number(e.Ms, 3)}, delay margin {number(e.delay_margin, 3)} s"],
-        ["set-point step", f"overshoot {number(e.overshoot, 3)} %, settling {number(e.settling, 3)} s"],
+        ["sampling", f"every {number(program.settings.h, 4)} s"],
+        ["robustness", f"$M_s$ = {number(e.Ms, 3)}, {margins}"],
+        ["set-point step", f"overshoot {number(e.overshoot, 3)} %, settled after {number(e.settling, 3)} s"],
+        ["load step", f"integrated error {number(e.iae_load, 3)} for a step of one at the input"],
     ]
-    return Table(["", "design"], rows, "The design in short", ["left", "left"])
+    marks = [""] * len(rows)
+    for text in found.warnings if found else ():
+        rows.append(["mind", text])
+        marks.append("note")
+    return Table(["", "design"], rows, "The design in short", ["left", "left"], (), marks)
 
 
 def settings(evaluations: Sequence[Evaluation]) -> Table:

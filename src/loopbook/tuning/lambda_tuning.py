@@ -22,7 +22,9 @@ def settings(k: float, T: float, T0: float, closed: float, type: str = "pi") -> 
     """
     if type not in ("pi", "pid"):
         raise KeyError(f"no lambda rule for {type!r}; known: pi, pid")
-    slow = f"T = {T:g} s is longer than 8 T0: the integral action is slow for loads; compare simc.settings"
-    aggressive = f"closed = {closed:g} s is shorter than T0 = {T0:g} s: little robustness against a longer dead time"
+    slow = f"T = {T:.4g} s is longer than 8 T0: the integral action is slow for loads; SIMC shortens it"
+    aggressive = (
+        f"closed = {closed:.4g} s is shorter than T0 = {T0:.4g} s: little robustness against a longer dead time"
+    )
     notes = [slow] * (T > 8 * T0) + [aggressive] * (closed < T0)
     return compute(f"lambda-{type}", k, T, T0, closed, notes=tuple(notes))
