@@ -16,6 +16,7 @@ from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_l
 from loopbook.identification.record import Record
 
 MOST_SWITCHINGS = 60
+ROUNDING = 1e-13
 SAME = 0.03  # how much the last periods may differ
 
 
@@ -59,20 +60,20 @@ def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: 
         instants, levels = np.array(switchings).T
         return float(np.diff(levels, prepend=0.0) @ response(t - instants))
 
+    rounding = ROUNDING * np.abs(y).max()  # a response that starts at zero may start a rounding error away from it
     while len(switchings) < MOST_SWITCHINGS:
-        up = switchings[-1][1] > 0
-        away = y + noise - hysteresis if up else -(y + noise) - hysteresis
-        later = np.flatnonzero((time > switchings[-1][0]) & (away > 0))
+        side = 1.0 if switchings[-1][1] > 0 else -1.0
+        later = np.flatnonzero((time > switchings[-1][0]) & (side * (y + noise) - hysteresis > rounding))
         if not later.size:
             break
         i = int(later[0])
         instant = float(time[i])
         if not plant.noise:
-            edge = hysteresis if up else -hysteresis
+            beyond = lambda t: side * output(t) - hysteresis  # noqa: E731, B023
             left = max(float(time[i - 1]), switchings[-1][0])
-            if (output(left) - edge) * (output(instant) - edge) < 0:
-                instant = float(brentq(lambda t: output(t) - edge, left, instant, xtol=1e-14))  # noqa: B023
-        level = float(plant.clip(-amplitude if up else amplitude))
+            if beyond(left) < -rounding:
+                instant = float(brentq(beyond, left, instant, xtol=1e-14))
+        level = float(plant.clip(-side * amplitude))
         y += (level - switchings[-1][1]) * response(np.maximum(time - instant, -1.0))
         switchings.append((instant, level))
     if len(switchings) < 8:
