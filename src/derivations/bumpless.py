@@ -25,8 +25,8 @@ NEW = {s: Symbol(f"{s.name}_new", **_TYPES.get(n, {"positive": True})) for n, s 
 def keep_p_plus_i() -> Eq:
     """Eq. 4.10: the I_new for which P + I is the same with the old and the new K and b."""
     proportional = next(a.value for a in code.separate().before if a.target == code.P)
-    same = Eq(proportional.subs(OLD) + I_old, proportional.subs(NEW) + I_new)
-    return Eq(I_new, collect(solved_for(I_new, same).expand(), [OLD[K], NEW[K]]))
+    old, new = proportional.subs(OLD) + I_old, proportional.subs(NEW) + I_new
+    return Eq(I_new, collect(solved_for(I_new, old, new).expand(), [OLD[K], NEW[K]]))
 
 
 def _changed(name: str, expr: Expr) -> Expr:
@@ -75,12 +75,11 @@ def keep_derivative(figure: str) -> dict[Symbol, Expr]:
     """
     wanted = Symbol("y_fnew", real=True)
     gain_old, gain_new = code.derivative_gain().subs(OLD), code.derivative_gain().subs(NEW)
-    same = Eq(gain_new * (wanted - code.y), gain_old * (code.yf_old - code.y))
-    filtered = solved_for(wanted, same)
+    filtered = solved_for(wanted, gain_new * (wanted - code.y), gain_old * (code.yf_old - code.y))
     states = states_from(figure, wanted, code.y_old)
     new = {s: factored(value.subs(NEW).subs(wanted, filtered)) for s, value in states.items()}
     if figure in ("4.12", "4.13"):
-        old_x = solved_for(code.yf_old, Eq(code.x, gain_old * code.yf_old))
+        old_x = solved_for(code.yf_old, gain_old * code.yf_old, code.x)
         p24_old, p24_new = Symbol("p_24old"), Symbol("p_24new")
         in_x = new[code.x].subs(code.yf_old, old_x)
         shorter = code.x + (p24_new - p24_old) * code.y
@@ -127,9 +126,8 @@ def keep_both_parts() -> dict[Symbol, Expr]:
     p24_old, p24_new = symbols("p_24old p_24new")
     c_old, c_new = symbols("c_old c_new", nonnegative=True)
     x_new = Symbol("x_new", real=True)
-    slope = Eq(
-        x_new - p24_new * (code.y - c_new * code.ysp),
-        code.x - p24_old * (code.y - c_old * code.ysp),
-    )
+    slope_old = code.x - p24_old * (code.y - c_old * code.ysp)
+    slope_new = x_new - p24_new * (code.y - c_new * code.ysp)
+    x = collect(solved_for(x_new, slope_new, slope_old).expand(), [p24_old, p24_new])
     integral = keep_p_plus_i().rhs.subs(I_old, code.I)
-    return {code.x: collect(solved_for(x_new, slope).expand(), [p24_old, p24_new]), code.I: integral}
+    return {code.x: x, code.I: integral}

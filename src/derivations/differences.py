@@ -62,7 +62,7 @@ def discretise(law: Eq, difference: Difference) -> Eq:
 
     slopes = {d: slope(d) for d in law.atoms(Derivative)}
     means = {f: mean(f) for f in law.atoms(AppliedUndef) if f.args == (t,)}
-    return law.xreplace(slopes).xreplace(means)
+    return law.xreplace(slopes | means)
 
 
 def by_signals(expr: Expr) -> dict[Expr, Expr]:
@@ -82,7 +82,7 @@ def update(law: Eq, state: str, difference: Difference) -> Eq:
     """
     equation = discretise(law, difference)
     newest = at(state, 1) if equation.has(at(state, 1)) else at(state)
-    return Eq(newest, Add(*(gain * sample for sample, gain in by_signals(solved_for(newest, equation)).items())))
+    return Eq(newest, Add(*(gain * sample for sample, gain in by_signals(solved_for(newest, *equation.args)).items())))
 
 
 def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol, Expr], Eq]:
@@ -101,7 +101,7 @@ def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol,
                 if vanishes(gain - sign * value):
                     return sign * name
         name, value = next(iter(defined.items()))
-        through = factor(gain.subs(h, solved_for(h, Eq(name, value)))) if value.has(h) and gain.has(h) else gain
+        through = factor(gain.subs(h, solved_for(h, name, value))) if value.has(h) and gain.has(h) else gain
         if not vanishes(through.subs(name, value) - gain):
             raise ValueError(f"the gain {gain} cannot be written with {name} = {value}")
         return through

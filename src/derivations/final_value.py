@@ -27,7 +27,7 @@ def error_transfer(regulator: Expr, plant: Expr) -> Expr:
     (T*s + 1)/(K_p*k + T*s + 1)
     """
     e, w = sp.symbols("E W")
-    return sp.factor(solved_for(e, sp.Eq(e, w - plant * regulator * e)) / w)
+    return sp.factor(solved_for(e, e, w - plant * regulator * e) / w)
 
 
 def steady_state_error(regulator: Expr, plant: Expr, setpoint: Expr = STEP) -> Expr:
@@ -61,4 +61,4 @@ def gain_for_error() -> Expr:
     -1/k + 1/(e*k)
     """
     e = sp.Symbol("e", positive=True)
-    return solved_for(Kp, sp.Eq(e, steady_state_error(Kp, k / (1 + s * T))))
+    return solved_for(Kp, e, steady_state_error(Kp, k / (1 + s * T)))

@@ -40,7 +40,7 @@ def static_output() -> Expr:
     u**2
     """
     root = sp.Symbol("root", nonnegative=True)
-    return solved_for(root, sp.Eq(acceleration().subs(v, 0).subs(sp.sqrt(y), root), 0)) ** 2
+    return solved_for(root, acceleration().subs(v, 0).subs(sp.sqrt(y), root)) ** 2
 
 
 @cache
@@ -50,7 +50,7 @@ def static_input() -> Expr:
     >>> static_input()
     sqrt(y_0)
     """
-    return solved_for(u, sp.Eq(acceleration().subs({v: 0, y: y0}), 0))
+    return solved_for(u, acceleration().subs({v: 0, y: y0}))
 
 
 @cache
@@ -104,9 +104,8 @@ def _characteristic(extra: Expr) -> Expr:
 
     extra: what a change of y adds to u through the factor before the stored integral, u0 d ln(K/Ti)/dy.
     """
-    output, control = sp.symbols("Y U")
-    law = sp.Eq(control, -K * (1 + Td * s + 1 / (Ti * s)) * output + extra * output)
-    feedback = solved_for(control, law)
+    output = sp.Symbol("Y")
+    feedback = -K * (1 + Td * s + 1 / (Ti * s)) * output + extra * output
     numerator = sp.numer(sp.together(output / linear_model() - feedback))
     polynomial = sp.Poly(sp.expand(numerator / output), s)
     return sp.collect(sp.expand(polynomial.as_expr() / polynomial.LC()), s)

@@ -26,8 +26,7 @@ def mixed_tank(volume: sp.Expr, inlet: sp.Expr, power: sp.Expr = sp.S.Zero) -> s
     0
     """
     T = sp.Symbol("T")
-    balance = sp.Eq(rho * c * volume * s * T, rho * c * Q * (inlet - T) + power)
-    return solved_for(T, balance)
+    return solved_for(T, rho * c * volume * s * T, rho * c * Q * (inlet - T) + power)
 
 
 def pipe(inlet: sp.Expr) -> sp.Expr:

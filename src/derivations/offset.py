@@ -23,7 +23,7 @@ def output(measured: Expr = y, wanted: Expr = ysp) -> Expr:
 @cache
 def rest_linear() -> Expr:
     """y at rest for a process y = G u + d: (G K y_sp + G u_b + d) / (1 + G K)."""
-    return solved_for(y, Eq(y, gain * output() + load))
+    return solved_for(y, y, gain * output() + load)
 
 
 @cache
@@ -41,7 +41,7 @@ def error_at_infinite_gain() -> Expr:
 @cache
 def offset_needed() -> Expr:
     """The u_b that makes the error zero: it depends on the set-point and the load."""
-    return solved_for(u_b, Eq(error_linear(), 0))
+    return solved_for(u_b, error_linear())
 
 
 @cache
@@ -53,7 +53,7 @@ def rest_drag() -> Expr:
 def _loop(setpoint: Expr, disturbance: Expr) -> Expr:
     """y of the loop y = G (u + d), u = K (b y_sp - y) + R (y_sp - y)."""
     u = K * (b * setpoint - y) + integral_action * (setpoint - y)
-    return solved_for(y, Eq(y, process * (u + disturbance)))
+    return solved_for(y, y, process * (u + disturbance))
 
 
 @cache

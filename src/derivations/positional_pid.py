@@ -76,4 +76,4 @@ def bumpless_total() -> Expr:
     """
     stored = sp.Symbol("stored", real=True)
     first = (terms()["P"] + terms()["I"]).subs(total, stored + e)
-    return solved_for(stored, sp.Eq(first, manual))
+    return solved_for(stored, first, manual)

@@ -4,16 +4,16 @@ SymPy's `simplify` and `solve` try many rules that a ratio of polynomials does n
 one fraction; it is zero where its multiplied-out numerator is, and a linear equation is solved by its coefficients.
 """
 
-from sympy import Eq, Expr, Mul, expand, factor, fraction, simplify, together
+from sympy import Expr, Mul, S, expand, factor, fraction, simplify, together
 from sympy.core.function import AppliedUndef
 
 
 class NotLinear(ValueError):
-    """An equation is not linear in the unknown, or does not hold it. Attributes: equation, unknown."""
+    """An equation is not linear in the unknown, or does not hold it. Attributes: left, right, unknown."""
 
-    def __init__(self, equation: Eq, unknown: Expr):
-        self.equation, self.unknown = equation, unknown
-        super().__init__(f"{equation} must be linear in {unknown}: sympy.solve finds the roots of other equations")
+    def __init__(self, left: Expr, right: Expr, unknown: Expr):
+        self.left, self.right, self.unknown = left, right, unknown
+        super().__init__(f"{left} = {right} must be linear in {unknown}; for other equations use sympy.solve")
 
 
 def _numerator(expr: Expr) -> Expr:
@@ -56,19 +56,19 @@ def factored(expr: Expr) -> Expr:
     return -sign * (rest / sums[0]) * expand(-sums[0]) if sign < 0 and sums else expr
 
 
-def solved_for(unknown: Expr, equation: Eq) -> Expr:
-    """The unknown (a symbol or a sample) of an equation that is linear in it, `factored`.
+def solved_for(unknown: Expr, left: Expr, right: Expr = S.Zero) -> Expr:
+    """The unknown (a symbol or a sample) of left = right, an equation that is linear in it; `factored`.
 
     Symbols stand for generic values: the solution holds where its denominator is not zero.
     Raises NotLinear where the equation, cleared of fractions, is not linear in the unknown or does not hold it.
 
     >>> from sympy.abc import a, b, x
-    >>> solved_for(x, Eq(a * x, b - x))
+    >>> solved_for(x, a * x, b - x)
     b/(a + 1)
     """
-    numerator = _numerator(equation.lhs - equation.rhs)
+    numerator = _numerator(left - right)
     slope = numerator.coeff(unknown)
     rest = expand(numerator - slope * unknown)
     if slope == 0 or rest.has(unknown) or slope.has(unknown):
-        raise NotLinear(equation, unknown)
+        raise NotLinear(left, right, unknown)
     return factored(-rest / slope)

@@ -21,8 +21,8 @@ def circuit_law() -> Eq:
     The three laws: capacitor I = C V_out', Ohm V_R = R I, Kirchhoff V_in - V_R - V_out = 0.
     """
     slope = V_out(t).diff(t)
-    kirchhoff = Eq(V_in(t) - V_R(t) - V_out(t), 0)
-    without_current = kirchhoff.subs(V_R(t), R * current(t)).subs(current(t), C * slope)
+    around = V_in(t) - V_R(t) - V_out(t)
+    without_current = around.subs(V_R(t), R * current(t)).subs(current(t), C * slope)
     return Eq(R * C * slope, expand(R * C * solved_for(slope, without_current)))
 
 
@@ -39,7 +39,7 @@ def transfer() -> Expr:
     law = circuit_law().subs(R, Tf / C)
     phasor = Symbol("phasor")
     steady = law.subs(V_out(t).diff(t), I * omega * phasor).subs({V_out(t): phasor, V_in(t): 1})
-    return 1 / expand(1 / solved_for(phasor, steady))
+    return 1 / expand(1 / solved_for(phasor, *steady.args))
 
 
 @cache

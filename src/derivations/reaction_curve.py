@@ -76,7 +76,7 @@ def velocity_gain() -> Expr:
     """
     crossing = Symbol("L", positive=True)
     line = K_v * du * (t - crossing)
-    return solved_for(K_v, sympy.Eq(-line.subs(t, 0), dy))
+    return solved_for(K_v, -line.subs(t, 0), dy)
 
 
 @cache
@@ -88,7 +88,7 @@ def velocity_gain_from_slope() -> Expr:
     """
     rise, run = symbols("Delta_y_tan Delta_t_tan", positive=True)
     slope = sympy.diff(final_tangent(), t)
-    return solved_for(K_v, sympy.Eq(slope, rise / run))
+    return solved_for(K_v, slope, rise / run)
 
 
 @cache

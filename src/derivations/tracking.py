@@ -5,7 +5,7 @@ Source: pid-report, sections 4.2.3 and 4.2.5. The recursion is eq. 4.5 with v = 
 
 from functools import cache
 
-from sympy import Eq, Expr, Rational, Symbol, factor, sqrt, symbols
+from sympy import Expr, Rational, Symbol, factor, sqrt, symbols
 
 from derivations import pid_updates as term
 from derivations.differences import at, by_signals
@@ -32,7 +32,7 @@ def pole() -> Expr:
 @cache
 def bump() -> Expr:
     """v - u_out that tracking settles at for a constant error: K T_t / T_i e. Zero only for e = 0."""
-    steady = solved_for(at("I"), Eq(at("I"), recursion()))
+    steady = solved_for(at("I"), at("I"), recursion())
     return factor(steady + rest - imposed)
 
 
@@ -40,7 +40,7 @@ def bump() -> Expr:
 def exact_integral() -> Expr:
     """The I for which v equals the output at once, whatever e is: u_out - r."""
     state = Symbol("I", real=True)
-    return solved_for(state, Eq(state + rest, imposed))
+    return solved_for(state, state + rest, imposed)
 
 
 @cache

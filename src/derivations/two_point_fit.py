@@ -28,15 +28,15 @@ def rise(p: Expr = p1) -> Expr:
     -T*log(1 - p_1) + T_0
     """
     left = sp.Symbol("q", positive=True)
-    instant = solved_for(tau, sp.Eq(sp.log(sp.exp(-tau)), sp.log(left)))
+    instant = solved_for(tau, sp.log(sp.exp(-tau)), sp.log(left))
     return T0 + T * instant.subs(left, 1 - p)
 
 
 @cache
 def fit() -> dict[sp.Symbol, Expr]:
     """T and T0 from t1 and t2 for any two parts p1 > p2."""
-    start = solved_for(T0, sp.Eq(t2, rise(p2)))
-    constant = solved_for(T, sp.Eq(t1, rise(p1)).subs(T0, start))
+    start = solved_for(T0, t2, rise(p2))
+    constant = solved_for(T, t1, rise(p1).subs(T0, start))
     return {T: constant, T0: sp.factor(start.subs(T, constant))}
 
 
