@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
+from loopbook.identification import intervals
 from loopbook.identification.choice import identify
 from loopbook.identification.least_squares import fit_structure
-from loopbook.identification.models import FIRST_ORDER, INTEGRATING, SECOND_ORDER, STRUCTURES, Structure
+from loopbook.identification.models import (
+    FIRST_ORDER,
+    INTEGRATING,
+    INTEGRATING_LAG,
+    SECOND_ORDER,
+    STRUCTURES,
+    Structure,
+)
 from loopbook.identification.record import Record, RecordError
 from loopbook.identification.steps import find_steps, noise_level
 from loopbook.process import Process
@@ -14,6 +22,7 @@ TRUE = {
     FIRST_ORDER: ((2.0, 10.0, 3.0), 0.03),
     SECOND_ORDER: ((2.0, 10.0, 4.0, 2.0), 0.01),
     INTEGRATING: ((0.2, 3.0), 0.05),
+    INTEGRATING_LAG: ((0.2, 4.0, 3.0), 0.03),
 }
 
 
@@ -58,6 +67,83 @@ def test_the_structure_that_made_the_data_is_chosen(structure):
     found = identify(made(structure, values, noise))
     assert found.chosen.structure is structure
     assert found.criteria[structure] <= 10 and len(found.reasons) == len(STRUCTURES)
+
+
+def _quantised(seed: int, step: float) -> Record:
+    """A record whose measurement moves in steps much coarser than its noise, from any level at rest."""
+    record = made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.01, seed)
+    shifted = record.y + np.random.default_rng(1000 + seed).uniform(0, step)
+    return Record(record.time, record.u, np.round(shifted / step) * step)
+
+
+def _irregular(seed: int) -> Record:
+    random = np.random.default_rng(seed)
+    time = np.sort(np.arange(0.0, 60.0, 0.25) + random.uniform(-0.12, 0.12, 240))
+    u = np.where(time >= 5, 1.0, 0.0)
+    clean = 2 * FIRST_ORDER.response(time, [(float(time[np.argmax(u)]), 1.0)], (10.0,), 3.0)
+    return Record(time, u, clean + random.normal(0, 0.03, 240))
+
+
+def _several(seed: int) -> Record:
+    time = np.arange(0.0, 160.0, 0.25)
+    steps = [(5.0, 1.0), (60.0, -1.5), (110.0, 1.0)]
+    u = sum(np.where(time >= at, size, 0.0) for at, size in steps)
+    clean = 2 * FIRST_ORDER.response(time, steps, (10.0,), 3.0)
+    return Record(time, u, clean + np.random.default_rng(seed).normal(0, 0.03, len(time)))
+
+
+def _drifting(seed: int) -> Record:
+    record = made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.03, seed, length=100.0, step_at=30.0)
+    return Record(record.time, record.u, record.y + 0.01 * record.time)
+
+
+def _following(seed: int) -> Record:
+    """Noise that forgets slowly, as a filtered measurement has it."""
+    record = made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.0, seed)
+    noise = np.random.default_rng(seed).normal(0, 0.02, len(record.time))
+    for k in range(1, len(noise)):
+        noise[k] += 0.7 * noise[k - 1]
+    return Record(record.time, record.u, record.y + noise)
+
+
+@pytest.mark.parametrize(
+    "record",
+    [
+        lambda seed: _quantised(seed, 0.05),
+        lambda seed: _quantised(seed, 0.1),
+        lambda seed: _quantised(seed, 0.3),
+        _irregular,
+        _several,
+        _drifting,
+        _following,
+        lambda seed: made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.03, seed, length=25.0),
+    ],
+    ids=["quantised", "coarse", "very coarse", "irregular", "several steps", "drift", "slow noise", "early end"],
+)
+def test_records_that_are_not_clean_keep_the_promise_of_the_intervals(record):
+    hits = np.zeros(3)
+    for seed in range(20):
+        fit = fit_structure(record(seed), FIRST_ORDER)
+        hits += [p.interval[0] <= v <= p.interval[1] for p, v in zip(fit.parameters, (2.0, 10.0, 3.0), strict=True)]
+    assert (hits >= 18).all(), hits
+
+
+def test_the_cost_of_correlation():
+    random = np.random.default_rng(0).normal(size=20_000)
+    following = random.copy()
+    for k in range(1, len(following)):
+        following[k] += 0.8 * following[k - 1]
+    assert intervals.cost_of_correlation(random) == pytest.approx(1.0, abs=0.1)
+    assert intervals.cost_of_correlation(following) == pytest.approx(1.8 / 0.2, rel=0.2)
+
+
+def test_a_measurement_that_stands_still_has_one_error_for_all_its_samples():
+    """The mean of n equal samples is as uncertain as one; of n that change levels, n times less so."""
+    mean = np.ones((400, 1))
+    still, moving = np.repeat([1.0, 1.5], 200), np.tile([1.0, 1.5], 200)
+    (wide, _), (narrow, _) = (intervals.covariance(mean, np.zeros(400), y) for y in (still, moving))
+    assert wide[0, 0] == pytest.approx(0.5**2 / 12 / 2) and narrow[0, 0] == pytest.approx(0.5**2 / 12 / 400)
+    assert intervals.quantum(np.arange(400.0)) == 0.0
 
 
 def test_intervals_shrink_with_the_noise():

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from loopbook.identification import intervals
 from loopbook.identification.models import STRUCTURES, Structure
 from loopbook.identification.record import Record
 from loopbook.identification.steps import Steps, find_steps
@@ -103,8 +104,8 @@ def _starts(structure: Structure, length: float, sampling: float) -> np.ndarray:
 def fit_structure(record: Record, structure: Structure, steps: Steps | None = None) -> Fit:
     """Fit one structure to a record; see the module for the problem that is solved.
 
-    Intervals are those of the linearised problem, widened by (1 + r)/(1 - r) for the correlation r of neighbouring
-    residuals: a model that leaves structure in its residuals, or a quantised signal, gets wider ones.
+    Intervals are those of the linearised problem, see `intervals`: a model that leaves structure in its residuals, or a
+    quantised signal, gets wider ones.
     """
     from scipy.optimize import least_squares
 
@@ -160,14 +161,9 @@ def _described(record, steps, structure, columns, lags, delay) -> Fit:
     moves[-1] = max(moves[-1], record.sampling)  # the response bends at the dead time: look across a whole sample
     jacobian = [(predicted(values + e) - predicted(values - e)) / (2 * e.sum()) for e in np.diag(moves)]
     jacobian = np.column_stack([*jacobian, columns])
-    n, p = jacobian.shape
-    variance = float(residuals @ residuals) / max(n - p, 1)
-    correlation = float(np.clip(residuals[1:] @ residuals[:-1] / max(residuals @ residuals, 1e-300), 0.0, 0.98))
-    inflation = (1 + correlation) / (1 - correlation)
-    effective = n / inflation
-    covariance = variance * inflation * np.linalg.pinv(jacobian.T @ jacobian)
+    covariance, freedom = intervals.covariance(jacobian, residuals, record.y)
     spread = np.sqrt(np.maximum(np.diag(covariance)[: len(values)], 0))
-    quantile = float(stdtrit(max(effective - p, 1), 0.5 + CONFIDENCE / 2))  # of Student's distribution
+    quantile = float(stdtrit(freedom, 0.5 + CONFIDENCE / 2))  # of Student's distribution
     names = ["Kv" if structure.integrating else "Kp", *(["T"] if len(lags) == 1 else ["T1", "T2"][: len(lags)]), "L"]
     parameters = tuple(
         Parameter(*row) for row in zip(names, values.tolist(), (quantile * spread).tolist(), strict=True)
@@ -181,7 +177,7 @@ def _described(record, steps, structure, columns, lags, delay) -> Fit:
         residuals=residuals,
         fit=100 * (1 - float(np.linalg.norm(residuals) / max(np.linalg.norm(record.y - record.y.mean()), 1e-300))),
         rmse=float(np.sqrt(np.mean(residuals**2))),
-        correlation=correlation,
+        correlation=intervals.correlation(residuals),
         settled=float("inf") if structure.integrating else float(after / sum(lags)),
         covariance=covariance[: len(values), : len(values)],
     )
