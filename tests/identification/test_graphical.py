@@ -1,5 +1,7 @@
 """The documents' graphical rules on records: exact on their own model, refusing what they cannot read."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -23,6 +25,28 @@ def test_both_rules_find_a_first_order_model(noise, tolerance):
         assert found[rule]["Kp"] == pytest.approx(1.5, rel=0.01)
         assert found[rule]["T"] == pytest.approx(10.0, rel=tolerance)
         assert found[rule]["L"] == pytest.approx(4.0, rel=2 * tolerance)
+
+
+def test_a_process_that_falls_and_an_input_that_is_measured_are_read_alike():
+    plain = made(0.01)
+    noisy = replace(plain, u=plain.u + np.random.default_rng(1).normal(0, 0.004, len(plain.u)))
+    for record, sign in (
+        (plain, 1),
+        (replace(plain, y=30 - plain.y), -1),
+        (replace(plain, u=80 - plain.u), -1),
+        (noisy, 1),
+    ):
+        for reading in readings(record)[:2]:
+            assert reading.values["Kp"] == pytest.approx(1.5 * sign, rel=0.01), reading
+            assert reading.values["T"] == pytest.approx(10.0, rel=0.05)
+
+
+def test_reasons_name_rules_not_functions():
+    reasons = [r.reason for r in readings(made(length=20)) + readings(made())]
+    assert any("take the final tangent" in r for r in reasons) and any(
+        "take the tangent and 63 %" in r for r in reasons
+    )
+    assert not any("integrating_step" in r or "estimate" in r for r in reasons)
 
 
 def test_a_response_that_has_not_settled_is_refused_with_the_reason():

@@ -125,7 +125,7 @@ def test_chr_settings_of_the_example():
     assert rounded(aperiodic) == (round(0.6 * 3.285 / (3 * 1.005), 4), 3.285, 0.5025)
     with_overshoot = chien_hrones_reswick.settings(3, 3.285, 1.005, "pid", 20)
     assert rounded(with_overshoot) == (round(0.95 * 3.285 / (3 * 1.005), 4), 4.599, round(0.47 * 1.005, 4))
-    assert "takes pid" in chien_hrones_reswick.settings(3, 3.285, 1.005, "pi").notes[0]
+    assert "table takes PID" in chien_hrones_reswick.settings(3, 3.285, 1.005, "pi").notes[0]
 
 
 def test_ratio_refuses_negative_times():

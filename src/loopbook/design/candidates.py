@@ -9,6 +9,7 @@ from loopbook.forms import PidStandard
 from loopbook.tuning import RuleDoesNotApply, Tuning
 
 FILTER = 10.0  # N: the derivative's filter is Td/10
+ADVICE = ("use pid_combined (extrapolate=True computes them all the same)", "see AMIGO step and frequency")
 
 
 @dataclass(frozen=True)
@@ -49,13 +50,14 @@ def rules(model: Model) -> dict[str, Callable[[], Tuning]]:
         "MIGO, PID": lambda: migo.pid(up.process),
     }
     lags = (math.inf,) * model.integrating + up.lags
-    common |= {
+    by_half_rule = {
         "SIMC, PI": lambda: simc.reduced(up.gain, lags, up.delay),
         "SIMC, PID": lambda: simc.reduced(up.gain, lags, up.delay, order=2),
     }
     if model.integrating:
         pulse = lambda: _pulse(up)  # noqa: E731
         return {
+            **by_half_rule,
             "AMIGO step, PI": lambda: amigo.pi_step_integrating(data),
             "AMIGO step, PID": lambda: amigo.pid_step_integrating(data),
             "AMIGO step and frequency, PID": lambda: amigo.pid_combined_integrating(pulse()),
@@ -75,6 +77,7 @@ def rules(model: Model) -> dict[str, Callable[[], Tuning]]:
         },
         "lambda, PI": lambda: lambda_tuning.settings(k, T, L, closed, "pi"),
         "lambda, PID": lambda: lambda_tuning.settings(k, T, L, closed, "pid"),
+        **by_half_rule,
         "AMIGO step, PI": lambda: amigo.pi_step(data),
         "AMIGO step, PID": lambda: amigo.pid_step(data),
         "AMIGO frequency, PI": lambda: amigo.pi_frequency(frequency(), k),
@@ -104,7 +107,7 @@ def candidates(model: Model) -> tuple[list[Candidate], list[Refused]]:
         try:
             tuning = tune()
         except (RuleDoesNotApply, NoSuchFrequency, DataError) as error:
-            refused.append(Refused(name, str(error)))
+            refused.append(Refused(name, str(error).replace(*ADVICE)))
             continue
         pid = tuning.pid
         ready = PidStandard(model.sign * pid.K, pid.Ti, pid.Td, b=pid.b, c=0.0, N=FILTER if pid.Td else None)

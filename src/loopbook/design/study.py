@@ -190,10 +190,10 @@ class Study:
         expected = {name: getattr(chosen, name) for name in EXPECTED}
         found = self.identified
         fit = {"percent": found.chosen.fit, "rms": found.chosen.rmse} if found else None
-        intervals = {p.name: list(p.interval) for p in found.chosen.parameters} if found else None
+        widths = {p.name: p.half_width for p in found.chosen.parameters} if found else None
         return {
             "data": Path(self.data).name,
-            "process": {**process, "source": model.source, "fit": fit, "intervals_95": intervals},
+            "process": {**process, "source": model.source, "fit": fit, "half_widths_95": widths},
             "aim": self.aim,
             "rule": chosen.candidate.name,
             **self.program.data(),

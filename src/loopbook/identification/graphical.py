@@ -11,6 +11,10 @@ import numpy as np
 
 from loopbook.experiments.plant import smooth
 from loopbook.identification.record import Record
+from loopbook.identification.steps import find_steps
+
+FUNCTIONS = {"use integrating_step": "take the final tangent", "use step.estimate": "take the tangent and 63 %"}
+"""What a function's advice is called where its reader sees rules, not functions."""
 
 
 @dataclass(frozen=True)
@@ -43,17 +47,33 @@ def two_point(record: Record) -> dict[str, float]:
 
 
 def first_step(record: Record) -> Record:
-    """The part of a record up to its second step: what a graphical rule can read. A record of one step is unchanged."""
-    changes = np.flatnonzero(np.diff(record.u))
-    if len(changes) < 2:
-        return record
-    part = slice(0, int(changes[1]) + 1)
-    return replace(record, time=record.time[part], u=record.u[part], y=record.y[part])
+    """The part of a record up to its second step, with an input that rests between its steps: what a rule can read.
+
+    Raises RecordError where there is no step.
+    """
+    steps = find_steps(record)
+    first, *more = steps.list
+    part = slice(0, int(np.searchsorted(record.time, more[0][0])) if more else None)
+    time, y = record.time[part], record.y[part]
+    u = float(record.u[: steps.before].mean()) + np.where(time >= first[0], first[1], 0.0)
+    return replace(record, time=time, u=u, y=y)
+
+
+def _falls(record: Record) -> bool:
+    """Does the output move against the input?"""
+    before = record.u == record.u[0]
+    last = max(len(record.y) // 10, 1)
+    return bool((record.y[-last:].mean() - record.y[before].mean()) * (record.u[-1] - record.u[0]) < 0)
 
 
 def readings(record: Record) -> list[Reading]:
-    """Every graphical rule on a record's first step, with the reason where it refuses."""
+    """Every graphical rule on a record's first step, with the reason where it refuses.
+
+    A process with a negative gain is read with the input turned round.
+    """
     record = first_step(record)
+    sign = -1.0 if _falls(record) else 1.0
+    record = replace(record, u=sign * record.u)
     from loopbook.experiments import integrating_step, step
     from loopbook.experiments.data import DataError
     from loopbook.experiments.plant import ExperimentError
@@ -74,7 +94,11 @@ def readings(record: Record) -> list[Reading]:
     found = []
     for rule, source, read in rules:
         try:
-            found.append(Reading(rule, source, read()))
+            values = {name: sign * v if name in ("Kp", "Kv") else v for name, v in read().items()}
+            found.append(Reading(rule, source, values))
         except (ExperimentError, DataError) as error:
-            found.append(Reading(rule, source, {}, str(error)))
+            reason = str(error)
+            for function, name in FUNCTIONS.items():
+                reason = reason.replace(function, name)
+            found.append(Reading(rule, source, {}, reason))
     return found

@@ -48,5 +48,6 @@ def settings(k: float, T: float, T0: float, type: str = "pid", overshoot: int = 
     if type not in TYPES or overshoot not in (0, 20):
         raise KeyError(f"no row {type!r} with {overshoot} %; types: {', '.join(TYPES)}; overshoot: 0 or 20")
     fitting = types(ratio(T, T0))
-    note = f"R = T/T0 = {ratio(T, T0):.4g}: the table by R takes {' or '.join(fitting)}"
+    taken = " or ".join(t.upper() if t in TYPES else f"a regulator of {t}" for t in fitting)
+    note = f"R = T/T0 = {ratio(T, T0):.4g}: by this ratio the method's own table takes {taken}"
     return compute(f"chr-{type}-{overshoot}", k, T, T0, notes=() if type in fitting else (note,))
