@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from loopbook import horner
 from loopbook.process import Process
 
 
@@ -38,9 +39,8 @@ def response(process: Process, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     ((0.5-0.5j), (-0.5+0j))
     """
     s = 1j * np.asarray(w, dtype=float)
-    num, den = np.polyval(process.num, s), np.polyval(process.den, s)
+    (num, dnum), (den, dden) = horner.with_slope(process.num, s), horner.with_slope(process.den, s)
     value = num / den * np.exp(-process.delay * s)
-    dnum, dden = np.polyval(np.polyder(process.num), s), np.polyval(np.polyder(process.den), s)
     return value, 1j * value * (dnum / num - dden / den - process.delay)
 
 

@@ -120,16 +120,13 @@ def cell_operator(system: DelayEquation, length: float) -> np.ndarray:
     """X at the nodes as a linear map of (x at the start, v at the nodes, 1): shape (p, n, n + p + 1)."""
     _, a, _ = radau()
     n, p = len(system.A), DEGREE
-    ones = np.ones((p, 1))
-    matrix = np.eye(p * n) - length * np.kron(a, system.A)
-    right = np.hstack(
-        [
-            np.kron(ones, np.eye(n)),
-            length * np.kron(a, system.b[:, None]),
-            length * np.kron(a @ ones, system.e[:, None]),
-        ]
-    )
-    return np.linalg.solve(matrix, right).reshape(p, n, n + p + 1)
+    integral = length * a
+    matrix = np.eye(p * n) - (integral[:, None, :, None] * system.A[:, None, :]).reshape(p * n, p * n)
+    right = np.empty((p, n, n + p + 1))
+    right[:, :, :n] = np.eye(n)
+    right[:, :, n:-1] = integral[:, None, :] * system.b[:, None]
+    right[:, :, -1] = integral.sum(axis=1)[:, None] * system.e
+    return np.linalg.solve(matrix, right.reshape(p * n, n + p + 1)).reshape(p, n, n + p + 1)
 
 
 def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> np.ndarray:

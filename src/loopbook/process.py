@@ -10,6 +10,7 @@ import math
 import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -163,12 +164,12 @@ class Process:
             num.pop(), den.pop()
         return math.copysign(math.inf, num[-1]) if den[-1] == 0 else num[-1] / den[-1]
 
-    @property
+    @cached_property
     def poles(self) -> np.ndarray:
         """The roots of den, complex, shape (order,)."""
         return np.roots(self.den).astype(complex)
 
-    @property
+    @cached_property
     def zeros(self) -> np.ndarray:
         """The roots of num, complex."""
         return np.roots(self.num).astype(complex)

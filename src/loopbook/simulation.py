@@ -156,6 +156,7 @@ def simulate(
     first = whole + 1
     y, u, v = np.empty(steps + 1), np.empty(steps + 1), np.empty(steps + 1)
     states, delayed = np.empty((steps + 1, len(x))), np.empty((steps + 1, 2))
+    onwards, from_here = np.column_stack([Phi, older, newer]), np.empty(len(x) + 2)
     for k in range(steps + 1):
         states[k] = x
         at_once = history[first + k - whole] if now and whole else history[k]
@@ -164,7 +165,8 @@ def simulate(
         u[k] = min(max(v[k], low), high)
         history[first + k] = u[k] + d[k]
         delayed[k] = history[k], history[k + 1]
-        x = Phi @ x + newer * history[k + 1] + older * history[k]
+        from_here[: len(x)], from_here[len(x) :] = x, history[k : k + 2]
+        x = onwards @ from_here
     return Simulation(t, y, y + n, u, v, r, d, plant, states, delayed, w)
 
 
