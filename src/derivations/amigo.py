@@ -200,6 +200,14 @@ def pi_step_limit() -> Rule:
     return replace(integrating_limit(pi_step()), name="PI step, limit T to infinity")
 
 
+def _at_infinity(rational: Expr, growing: Symbol) -> Expr:
+    """The limit for growing -> infinity of a rational function that has one: the ratio of the leading coefficients."""
+    top, bottom = (sympy.Poly(part, growing) for part in sympy.fraction(sympy.cancel(rational)))
+    if top.degree() > bottom.degree():
+        raise ValueError(f"{rational} grows without bound with {growing}")
+    return top.coeff_monomial(growing ** bottom.degree()) / bottom.LC()
+
+
 def integrating_limit(rule: Rule) -> Rule:
     """The rule for a process whose lag grows without bound while its velocity gain K_v = K_p/T stays.
 
@@ -207,7 +215,7 @@ def integrating_limit(rule: Rule) -> Rule:
     """
     lag = T if T in rule.inputs else T_1
     ki, kd = rule.ki, rule.kd
-    K, ki, kd = (sympy.limit(sympy.cancel(e.subs(K_p, K_v * lag)), lag, sympy.oo) for e in (rule.K, ki, kd))
+    K, ki, kd = (_at_infinity(e.subs(K_p, K_v * lag), lag) for e in (rule.K, ki, kd))
     inputs = (K_v, *(x for x in rule.inputs if x not in (K_p, lag)))
     return replace(rule, inputs=inputs, K=sympy.factor(K), Ti=sympy.cancel(K / ki), Td=sympy.cancel(kd / K))
 

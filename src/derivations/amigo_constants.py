@@ -12,6 +12,7 @@ from sympy import Expr, Symbol
 
 from derivations import amigo
 from derivations.amigo import K_180, L_1, T_1, T_2, T_180, K_p, K_v, L, T, kappa
+from derivations.rational import solved_for
 
 x, x_1, x_2 = (Symbol(name, positive=True) for name in ("x", "x_1", "x_2"))  # T/L, T_1/L_1, T_2/L_1
 
@@ -126,7 +127,7 @@ def pid_frequency() -> dict[str, Expr]:
         "pid-frequency-Ti-1": Ti.subs(kappa, 0),
         "pid-frequency-Ti-2": sympy.diff(Ti.subs(kappa, 0) / Ti, kappa),
         "pid-frequency-Td-1": Td.subs(kappa, 0),
-        "pid-frequency-Td-2": 1 / sympy.solve(1 / Td, kappa)[0],
+        "pid-frequency-Td-2": 1 / solved_for(kappa, 1 / Td),
         "pid-frequency-kappa": rule.good["K"][1],
     }
 

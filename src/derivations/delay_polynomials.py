@@ -37,7 +37,7 @@ def coefficients(expression: sp.Expr, name: str = "polynomial", z: sp.Symbol = Z
             name, expression, f"exact numbers only, write Rational('{text}') for {text} or use sympy.nsimplify"
         )
     w = sp.Dummy("w")
-    in_w = expression.subs(z, 1 / w)
+    in_w = expression.xreplace({z: 1 / w})
     if (found := _as_written(in_w, w)) is not None:
         return found
     if not in_w.is_polynomial(w):

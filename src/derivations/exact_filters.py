@@ -6,20 +6,28 @@ or that runs in a straight line (first-order hold). Compared with pid-report, eq
 
 from functools import cache
 
-from sympy import Add, Eq, Expr, Function, Symbol, diff, dsolve, limit, log, simplify, symbols
+from sympy import Add, Eq, Expr, Function, Symbol, diff, exp, limit, log, simplify, symbols
 
 from derivations.differences import at, by_signals, h, t
 from derivations.pid_laws import K, Td
+from derivations.rational import vanishes
 from derivations.rc_filter import Tf, filter_law
 
 _start, _from, _to = symbols("start from to")
 
 
 def _after_one_sample(source: Expr) -> Expr:
-    """x(h) of T_f x' = -x + source(t), x(0) = start."""
-    x = Function("x")
-    solved = dsolve(filter_law("x", "w").subs(Function("w")(t), source), x(t), ics={x(0): _start})
-    return solved.rhs.subs(t, h)
+    """x(h) of T_f x' = -x + source(t), x(0) = start, for a source that is linear in t.
+
+    The solution is source - T_f source', which the filter follows, and what is left of the start, decaying.
+    Raises ArithmeticError where that is no solution.
+    """
+    followed = source - Tf * source.diff(t)
+    solution = followed + (_start - followed.subs(t, 0)) * exp(-t / Tf)
+    law = filter_law("x", "w")
+    if not vanishes((law.lhs - law.rhs).subs({Function("w")(t): source, Function("x")(t): solution}).doit()):
+        raise ArithmeticError(f"the source {source} is not linear in {t}")
+    return solution.subs(t, h)
 
 
 def _samples(expr: Expr, state: str, held: str) -> Expr:

@@ -78,7 +78,7 @@ def real_step() -> Expr:
     >>> sp.expand(real_step().subs({Kp: 1, Ti: 1, Td: 1}))
     alpha*exp(-alpha*t) + t + 1
     """
-    return sp.inverse_laplace_transform(sp.apart(real() / s, s), s, t)
+    return sp.inverse_laplace_transform(sp.expand(real() / s), s, t)
 
 
 @cache

@@ -107,17 +107,17 @@ class PolePlacement:
     @cached_property
     def C_prime(self) -> sp.Expr:
         """C' in the symbols of the problem."""
-        return self.C_prime_form.subs(self.solution)
+        return self.C_prime_form.xreplace(self.solution)
 
     @cached_property
     def C(self) -> sp.Expr:
         """C = S C', the denominator of the regulator, in the symbols of the problem."""
-        return self.C_form.subs(self.solution)
+        return self.C_form.xreplace(self.solution)
 
     @cached_property
     def D(self) -> sp.Expr:
         """The feedback polynomial in the symbols of the problem."""
-        return self.D_form.subs(self.solution)
+        return self.D_form.xreplace(self.solution)
 
     @cached_property
     def Kr(self) -> sp.Expr:
@@ -131,7 +131,7 @@ class PolePlacement:
     def closed_loop(self) -> sp.Expr:
         """A C + B D multiplied out and reduced; `place` has checked that it is P."""
         forms = [coefficients(p, z=self.z) for p in (self.A, self.B, self.C_form, self.D_form)]
-        solved = [[c.subs(self.solution) for c in form] for form in forms]
+        solved = [[c.xreplace(self.solution) for c in form] for form in forms]
         field, _ = construct_domain([c for form in solved for c in form], field=True)
         a, b, c, d = ([field.from_sympy(c) for c in form] for form in solved)
         total = [x + y for x, y in zip_longest(_product(a, c), _product(b, d), fillvalue=field.zero)]

@@ -5,7 +5,7 @@ Source: pid-report, section 4.1 (circuit of figure 4.4) and section 5.1 (16 time
 
 from functools import cache
 
-from sympy import Eq, Expr, Function, I, Rational, Symbol, expand, pi, simplify, solve, sqrt, symbols
+from sympy import Eq, Expr, Function, I, Rational, Symbol, cancel, expand, pi, simplify, sqrt, symbols
 
 from derivations.differences import h, t
 from derivations.rational import solved_for
@@ -46,13 +46,19 @@ def transfer() -> Expr:
 def gain() -> Expr:
     """Amplitude ratio 1 / sqrt(1 + (omega T_f)^2)."""
     value = transfer()
-    return simplify(sqrt(value * value.subs(I, -I)))
+    return sqrt(1 / expand(1 / (value * value.subs(I, -I))))
+
+
+def _root(unknown: Symbol, power: Expr) -> Expr:
+    """The positive T_f or omega for which the squared gain, which holds its square only, is ``power``."""
+    square = Symbol("square", positive=True)
+    return sqrt(cancel(solved_for(square, (gain() ** 2).subs(unknown**2, square), power)))
 
 
 @cache
 def cutoff() -> Expr:
     """The angular frequency [rad/s] at which the power is halved: 1 / T_f."""
-    return solve(Eq(gain() ** 2, attenuation**-2).subs(attenuation, sqrt(2)), omega)[0]
+    return _root(omega, Rational(1, 2))
 
 
 @cache
@@ -65,7 +71,7 @@ def cutoff_hz() -> Expr:
 def time_constant_for(order: int = 1) -> Expr:
     """The time constant of each of ``order`` equal filters in series that attenuate ``a`` times at half the sampling
     frequency, that is at omega = pi / h."""
-    return simplify(solve(Eq(gain().subs(omega, pi / h) ** 2, attenuation ** Rational(-2, order)), Tf)[0])
+    return _root(Tf, attenuation ** Rational(-2, order)).subs(omega, pi / h)
 
 
 @cache

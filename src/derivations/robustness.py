@@ -16,6 +16,8 @@ from functools import cache
 import sympy
 from sympy import Expr, I, Rational, Symbol, symbols
 
+from derivations.rational import solved_for
+
 M = Symbol("M", positive=True)  # > 1
 C, R, w = symbols("C R omega", positive=True)
 k, k_i, k_d = symbols("k k_i k_d", real=True)
@@ -67,8 +69,8 @@ def complementary_circle() -> Circle:
     -M**2/((M - 1)*(M + 1))
     """
     x = Symbol("x", real=True)
-    left, right = (sympy.solve(x / (1 + x) - sign * M, x)[0] for sign in (1, -1))
-    return _between(sympy.factor(left), sympy.factor(right))
+    left, right = (solved_for(x, x / (1 + x), sign * M) for sign in (1, -1))
+    return _between(left, right)
 
 
 @cache
@@ -115,15 +117,13 @@ def smooth_branch() -> Branch:
     k_d*omega**2 - omega*(C*b + R*r)/r**2
     """
     f = distance_squared()
-    (lowest,) = sympy.solve(sympy.diff(f, k), k)
+    lowest = solved_for(k, sympy.diff(f, k)).subs(b, sympy.sqrt(r**2 - a**2))
     slope = Symbol("v", real=True)  # v = k_i/w - k_d w, the only way in which k_i and k_d enter f
-    at_lowest = sympy.expand(f.subs(k_i, w * slope + k_d * w**2).subs(k, lowest))
-    at_lowest = sympy.expand(sympy.simplify(at_lowest).subs(a, sympy.sqrt(r**2 - b**2)))
-    roots = sympy.solve(at_lowest - R**2, slope)
-    lower = min(roots, key=lambda root: root.subs({b: -1, r: 2, C: 2, R: 1}))
+    at_lowest = f.subs(k_i, w * slope + k_d * w**2).subs(k, lowest).subs(a, sympy.sqrt(r**2 - b**2))
+    square, linear, constant = sympy.Poly(sympy.expand(at_lowest - R**2), slope).all_coeffs()  # square = r^2 > 0
+    lower = (-linear - sympy.sqrt(sympy.expand(linear**2 - 4 * square * constant))) / (2 * square)
     edge = w**2 * k_d + w * sympy.factor(lower)
-    (stationary,) = sympy.solve(along_frequency(edge), k_d)
-    return Branch(lowest.subs(b, sympy.sqrt(r**2 - a**2)), edge, sympy.factor(stationary))
+    return Branch(lowest, edge, solved_for(k_d, along_frequency(edge)))
 
 
 def high_frequency_limit() -> Expr:
@@ -148,7 +148,7 @@ def joint_M() -> Expr:
     7/5
     """
     inverse = Symbol("q", positive=True)  # 1/(C - 1)
-    (root,) = [x for x in sympy.solve(2 * M * (M - 1) - inverse, M) if x.subs(inverse, 1) > 0]
+    (root,) = [x for x in sympy.roots(2 * M * (M - 1) - inverse, M) if x.subs(inverse, 1) > 0]
     return root.subs(inverse, -2 * a / ((1 + a) ** 2 + b**2))
 
 

@@ -38,7 +38,7 @@ def unfinished() -> Expr:
     """
     s = Symbol("s")
     step = 1 / (s * (1 + s * T_1) * (1 + s * T_2))
-    residues = [sympy.limit(step * (s + 1 / T), s, -1 / T) * exp(-t / T) for T in (T_1, T_2)]
+    residues = [sympy.cancel(step * (s + 1 / T)).subs(s, -1 / T) * exp(-t / T) for T in (T_1, T_2)]
     return -sum(sympy.factor(r) for r in residues)
 
 
@@ -49,7 +49,8 @@ def unfinished_equal() -> Expr:
     >>> unfinished_equal()
     (T_1 + t)*exp(-t/T_1)/T_1
     """
-    return sympy.factor(sympy.limit(unfinished(), T_2, T_1))
+    top, bottom = sympy.fraction(sympy.together(unfinished()))  # both vanish at T_2 = T_1: l'Hospital
+    return sympy.factor((top.diff(T_2) / bottom.diff(T_2)).subs(T_2, T_1))
 
 
 @cache
@@ -62,7 +63,7 @@ def first_lag() -> Expr:
     1
     """
     x = Symbol("x")
-    roots = sympy.solve((1 + x) * (1 + alpha**2 * x) - (K_p * K_u) ** 2, x)
+    roots = sympy.roots((1 + x) * (1 + alpha**2 * x) - (K_p * K_u) ** 2, x)
     at = {alpha: Rational(1, 2), K_p: 1, K_u: 10}
     (root,) = [r for r in roots if r.subs(at) > 0]
     under = sympy.factor(sympy.expand(2 * alpha**2 * root))

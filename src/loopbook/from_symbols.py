@@ -26,12 +26,10 @@ def process_of(expression: Any, values: Mapping[Any, Any], s: Any = None) -> Pro
     left = expression.free_symbols - {s}
     if left:
         raise ProcessError(f"no value for {', '.join(sorted(map(str, left)))}; given: {', '.join(named) or 'none'}")
-    delay = sympy.S.Zero
-    for factor in sympy.Mul.make_args(sympy.powsimp(sympy.factor(expression))):
-        if isinstance(factor, sympy.exp):
-            delay = delay - sympy.cancel(factor.args[0] / s)
-    rational = sympy.together(sympy.simplify(expression * sympy.exp(delay * s)))
-    num, den = sympy.fraction(rational)
+    factors = sympy.Mul.make_args(sympy.powsimp(sympy.factor(expression)))
+    exponents = [factor.args[0] for factor in factors if isinstance(factor, sympy.exp)]
+    delay = -sum((sympy.cancel(exponent / s) for exponent in exponents), sympy.S.Zero)
+    num, den = sympy.fraction(sympy.Mul(*(factor for factor in factors if not isinstance(factor, sympy.exp))))
     if delay.has(s) or not (num.is_polynomial(s) and den.is_polynomial(s)):
         raise ProcessError(f"{expression} is no rational function of {s} times exp(-L {s})")
     num, den = (sympy.Poly(p, s).all_coeffs() for p in (num, den))
