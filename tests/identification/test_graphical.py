@@ -8,7 +8,8 @@ import pytest
 from loopbook.identification import example
 from loopbook.identification.graphical import first_step, readings
 from loopbook.identification.models import FIRST_ORDER
-from loopbook.identification.record import Record, read_csv
+from loopbook.identification.reading import read_csv
+from loopbook.identification.record import Record
 
 
 def made(noise=0.0, length=120.0):

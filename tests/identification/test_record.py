@@ -1,9 +1,13 @@
 """Records as loggers write them: found columns, units, decimals and gaps, or a refusal that says how to mend it."""
 
+from datetime import datetime, timedelta
+
 import numpy as np
 import pytest
 
-from loopbook.identification.record import Record, RecordError, read_csv
+from loopbook.identification.reading import read_csv
+from loopbook.identification.record import Record, RecordError
+from loopbook.identification.steps import find_steps
 
 N = 30
 T = np.arange(N) * 0.5
@@ -16,6 +20,14 @@ def lines(*columns, head="", sep=",", form=str):
     return "\n".join([head, *rows] if head else rows) + "\n"
 
 
+def grouped(value):
+    return f"{value:,.3f}".translate(str.maketrans(",.", ".,"))
+
+
+def day(seconds, form):
+    return (datetime(2026, 2, 1, 23, 59, 55) + timedelta(seconds=float(seconds))).strftime(form)
+
+
 def read(tmp_path, text, encoding="utf-8", **names):
     file = tmp_path / "log.csv"
     file.write_bytes(text.encode(encoding))
@@ -23,7 +35,7 @@ def read(tmp_path, text, encoding="utf-8", **names):
 
 
 def comma(value):
-    return str(value).replace(".", ",")
+    return value if isinstance(value, str) else str(value).replace(".", ",")
 
 
 @pytest.mark.parametrize(
@@ -39,8 +51,25 @@ def comma(value):
         "Plant 7\nunit;;\n" + lines(T, U, Y, head="time;u;y", sep=";"),
         lines([f"2026-03-01 10:00:{s:06.3f}" for s in T], U, Y, head="timestamp,u,y"),
         lines(T + 1e6, U, Y, head="time,u,y"),
+        lines(T + 1e6, U, Y, head="time;u;y", sep=";", form=grouped),
+        lines(T, U, Y, head="Time;u;y\ns;%;°C", sep=";", form=comma),
+        "sep=;\n" + lines(T, U, Y, head="Time;u;y", sep=";", form=comma),
+        lines(T, U, Y, head="time,u,y", form=lambda v: f'"{comma(v)}"'),
+        lines(T * 1000 + 1.7e12, U, Y, head="timestamp,u,y"),
+        lines([day(s, "%d.%m.%Y %H:%M:%S.%f") for s in T], U, Y, head="tid;u;y", sep=";", form=comma),
+        lines([day(s, "%d/%m/%Y %H:%M:%S.%f") for s in T], U, Y, head="date,u,y"),
+        lines([day(s, "%m/%d/%Y %H:%M:%S.%f") for s in T], U, Y, head="date,u,y"),
+        lines([day(s, "%Y-%m-%dT%H:%M:%S.%f+01:00") for s in T], U, Y, head="date,u,y"),
+        lines(T[:9], U[:9], Y[:9], head="time,u,y") + lines(T[9:], U[9:], Y[9:], head="time,u,y"),
+        lines(range(N), T, U, Y, head="Unnamed: 0,time,u,y"),
+        lines(T, np.full(N, 21.5), U, Y, head="time,sp,op,pv"),
+        lines(T, U, Y, head="time,u,y").replace("\n", "\r\n"),
     ],
-    ids=["plain", "decimal comma", "tabs", "ms", "min", "index", "blanks", "preamble", "dates", "late start"],
+    ids=[
+        *("plain", "decimal comma", "tabs", "ms", "min", "index", "blanks", "preamble", "dates", "late start"),
+        *("grouped thousands", "line of units", "sep line", "quoted decimal comma", "since 1970", "dotted dates"),
+        *("day first", "month first", "zone", "logging restarted", "pandas index", "set-point", "line ends"),
+    ],
 )
 def test_the_same_record_in_many_guises(tmp_path, text):
     record = read(tmp_path, text)
@@ -52,6 +81,26 @@ def test_the_same_record_in_many_guises(tmp_path, text):
 def test_an_old_encoding_is_read(tmp_path):
     record = read(tmp_path, lines(T, U, Y, head="Time [s],u,Temp [°C]"), encoding="cp1252")
     assert record.output_unit == "°C"
+
+
+def test_a_spreadsheets_export_is_read(tmp_path):
+    record = read(tmp_path, lines(T, U, Y, head="Tid [s];Styrsignal [%];Mätvärde [°C]", sep=";", form=comma), "utf-16")
+    assert (record.input_name, record.output_name, record.output_unit) == ("Styrsignal", "Mätvärde", "°C")
+
+
+def test_a_line_of_units_names_the_units(tmp_path):
+    record = read(tmp_path, lines(T / 60, U, Y, head="Time;u;y\nmin;%;°C", sep=";", form=lambda v: f"{v:.9f}"))
+    assert (record.input_unit, record.output_name, record.output_unit) == ("%", "y", "°C")
+    assert np.allclose(record.time, T, atol=1e-6)
+
+
+def test_a_step_at_a_sample_whose_output_is_missing_keeps_its_instant(tmp_path):
+    at = int(np.argmax(U > 0))
+    shown = ["---" if i in (at, at + 1) else y for i, y in enumerate(Y)]
+    record = read(tmp_path, lines(T, U, shown, head="time,u,y"))
+    assert len(record.time) == N - 2
+    (steps, before) = (find_steps(record).list, find_steps(record).before)
+    assert steps == [(T[at], 5.0)] and before == at
 
 
 def test_columns_can_be_named(tmp_path):

@@ -64,7 +64,7 @@ class Study:
     def identified(self) -> "Identified | None":
         """The record with its fitted models; None where a model was given."""
         from loopbook.identification.choice import identify
-        from loopbook.identification.record import read_csv
+        from loopbook.identification.reading import read_csv
 
         if not self.recorded:
             return None

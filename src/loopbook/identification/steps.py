@@ -48,7 +48,8 @@ def find_steps(record: Record) -> Steps:
     Changes below 2 % of the input's range count as noise of the input. Raises RecordError where the input never
     steps, never rests, or the output does not answer.
     """
-    u, y, time = record.u, record.y, record.time
+    y = record.y
+    time, u = record.held or (record.time, record.u)
     span = float(np.ptp(u))
     name = record.input_name
     if span == 0:
@@ -64,8 +65,9 @@ def find_steps(record: Record) -> Steps:
         )
     levels = [float(np.mean(part)) for part in np.split(u, changes + 1)]
     listed = [(float(time[k + 1]), b - a) for k, a, b in zip(changes, levels, levels[1:], strict=False)]
-    notes = [f"{len(listed)} step{'s' if len(listed) > 1 else ''} of the input found."]
-    before = int(changes[0]) + 1
+    when = f"taken at the first sample with the new input: the dead time may be up to {record.sampling:.3g} s longer"
+    notes = [f"{len(listed)} step{'s' if len(listed) > 1 else ''} of the input found, {when}."]
+    before = max(int(np.searchsorted(record.time, listed[0][0])), 1)
     if before < 5:
         many = "sample" if before == 1 else "samples"
         notes.append(f"Only {before} {many} before the first step: the output was taken to be at rest.")
