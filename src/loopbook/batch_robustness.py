@@ -59,8 +59,7 @@ def ziegler_nichols_joint(studies: Sequence[Study]) -> np.ndarray:
     return np.array([joint_M(s.member.process, step_method(s.step.Kp, s.step.T, s.step.L).pid) for s in stable])
 
 
-def efficiency(studies: Sequence[Study]) -> np.ndarray:
-    """ki of the PI step rule over the largest ki that a PI regulator can have at the rule's own joint M."""
-    reached = joint(studies, "PI step")
+def efficiency(studies: Sequence[Study], reached: np.ndarray) -> np.ndarray:
+    """ki of the PI step rule over the largest ki that a PI regulator can have at the rule's own joint M, `reached`."""
     best = [migo.pi(s.member.process, float(M)).ki for s, M in zip(studies, reached, strict=True)]
     return np.array([s.settings["PI step"].ki for s in studies]) / np.array(best)

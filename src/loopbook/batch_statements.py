@@ -40,6 +40,16 @@ class Batch:
     def joint(self) -> dict[str, np.ndarray]:
         return {rule: robust.joint(self.studies, rule) for rule in RULES}
 
+    @cached_property
+    def efficiency(self) -> np.ndarray:
+        """ki of the PI step rule over the largest possible at its own joint M."""
+        return robust.efficiency(self.studies, self.joint["PI step"])
+
+    @cached_property
+    def ziegler_nichols(self) -> np.ndarray:
+        """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
+        return robust.ziegler_nichols_joint(self.studies)
+
     def gain(self, name: str) -> np.ndarray:
         """ki or K of PID MIGO over that of PI MIGO."""
         return np.array(
@@ -209,7 +219,7 @@ def combined(b: Batch) -> Statements:
 
 def whole(b: Batch) -> Statements:
     """Sections 5.3 and 6: does AMIGO maximise ki, and how does Ziegler-Nichols compare?"""
-    share, zn = robust.efficiency(b.studies), robust.ziegler_nichols_joint(b.studies)
+    share, zn = b.efficiency, b.ziegler_nichols
     worst = {rule: b.joint[rule].max() for rule in ("PI step", "PID step", "PID combined")}
     pi, pid = b.over["PI step"].ki, b.over["PID step"].ki
     parts = {
