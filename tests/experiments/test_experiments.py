@@ -119,6 +119,13 @@ def test_relay_oscillates_near_the_ultimate_point():
     assert pytest.approx(point.K180, rel=0.08) == found.data.K180
 
 
+@pytest.mark.parametrize("member", [m for m in batch() if m.family == 3][:6], ids=lambda m: m.name)
+def test_the_relay_does_not_chatter_on_rounding_errors(member):
+    """Fast lags: the output starts as t^3 and is for long no larger than its rounding errors about zero."""
+    found, point = relay.estimate(relay.run(Plant(member.process, samples=2001))), ultimate(member.process)
+    assert pytest.approx(point.T180, rel=0.06) == found.data.T180
+
+
 def test_relay_period_of_a_first_order_process_is_exact():
     """With e^-Ls/(1+sT) and no hysteresis: y peaks at 1 - e^(-L/T), half a period is L + T log(2 - e^(-L/T))."""
     record = relay.run(Plant(Process.fopdt(1.0, 3.0, 1.0), samples=40001))
