@@ -82,7 +82,7 @@ def test_the_longest_word_is_in_a_cell_that_is_measured(seed, tmp_path):
 
 def test_estimates_are_near_the_engines_measure(tmp_path):
     texts = ["", *(" ".join(VOCABULARY[i : i + 4]) for i in range(0, len(VOCABULARY) - 4))]
-    estimates = [extent(Cell([Text(text)])) for text in texts[1:]]
+    estimates = [extent(Cell([Text(text)]))[1] for text in texts[1:]]
     for estimate, width in zip(estimates, measured(texts, tmp_path)[1:], strict=True):
         assert estimate == pytest.approx(width, rel=0.15)
 
@@ -92,10 +92,13 @@ def test_cells_that_differ_in_their_digits_only_are_measured_once():
     assert deciding(column(numbers, "right", head=False)).widest == ((0,),)
 
 
-def test_formulas_are_always_measured_and_decide_for_no_other_cell():
-    grid = column(["a short text", "x", "y"], head=False)
-    grid.cells[1].children = [Math(r"\frac{a + b + c + d + e + f + g + h}{i}")]
+def test_a_formula_is_measured_where_it_may_be_the_widest_and_decides_for_no_text():
+    fraction = Math(r"\frac{a + b + c + d + e + f + g + h}{i}")
+    grid = column(["a text that is much wider than any letter", "x", "y", "a short text"], head=False)
+    grid.cells[1].children, grid.cells[2].children = [fraction], [Math("K")]
     assert deciding(grid).widest == ((0, 1),)
+    grid.cells[0].children = [Text("a text of some words")]
+    assert deciding(grid).widest == ((0, 1),), "read as text the formula is longer, set it may not be"
 
 
 def test_numbers_and_a_few_letters_are_not_broken_but_sentences_are():

@@ -336,7 +336,7 @@ c &= d
         "#list(",
     ):
         assert piece in source, piece
-    for piece in ("#task(true)", "#quote(", "#terms(", "#thematic-break()", "#drawing(", "#inline-picture(", "#sub["):
+    for piece in ("#task(true)", "#quoted[", "#terms(", "#thematic-break()", "#drawing(", "#inline-picture(", "#sub["):
         assert piece in source, piece
     assert "comment" not in source and 'label("spot")' in source
     page = make.html(nb, assets=tmp_path)

@@ -1,14 +1,14 @@
 """What decides how wide the columns of a table become: the few cells that the engine has to measure.
 
 To measure every cell of a table takes as long as to set it. Most cells are plainly not the widest of their column: an
-estimate from the letters, good to some ten percent, tells which may be. Formulas are not estimated but measured.
+estimate from the letters, good to some ten percent for text and a rough one for formulas, tells which may be.
 """
 
 import re
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, inf
 
-from loopbook.pipeline.export.model import Anchor, Cell, Code, Grid, Inline, Styled, Text, plain
+from loopbook.pipeline.export.model import Anchor, Cell, Code, Grid, Inline, Math, Styled, Text, plain
 
 NEAR = 0.75
 """From this share of the longest estimate of its column on a cell may be the widest."""
@@ -26,6 +26,9 @@ _USUAL, _FIXED, _BOLD = 0.5, 0.62, 1.1
 _WORDS = re.compile(r"[\s\u200b]+|(?<=[-/–])")
 
 
+Range = tuple[float, float]
+
+
 @dataclass(frozen=True)
 class Deciding:
     """By column the cells, as places in the grid's list, of which one is the widest, and of which one holds the
@@ -37,21 +40,21 @@ class Deciding:
 
 def deciding(grid: Grid) -> Deciding:
     """The cells to be measured."""
-    widest: list[list[tuple[int, float | None, str]]] = [[] for _ in range(grid.columns)]
-    solid: list[list[tuple[int, float | None, str]]] = [[] for _ in range(grid.columns)]
+    widest: list[list[tuple[int, Range, str]]] = [[] for _ in range(grid.columns)]
+    solid: list[list[tuple[int, Range, str]]] = [[] for _ in range(grid.columns)]
     for place, cell in enumerate(grid.cells):
         if cell.colspan == 1:
             whole, shape = extent(cell), _shape(cell)
             widest[cell.x].append((place, whole, shape))
-            longest = whole if unbroken(cell) or whole is None else _longest(cell)
-            solid[cell.x].append((place, longest, shape))
+            solid[cell.x].append((place, whole if unbroken(cell) else _longest(cell), shape))
     return Deciding(tuple(map(_near, widest)), tuple(map(_near, solid)))
 
 
-def extent(cell: Cell) -> float | None:
-    """The width of a cell on one line in points, by estimate; None where it holds what only the engine can measure."""
-    ems = _ems(cell.children)
-    return None if ems is None else SIZE * (ems * (_BOLD if cell.head else 1) + bool(cell.mark))
+def extent(cell: Cell) -> Range:
+    """The width of a cell on one line in points: the least and the most by estimate, equal for text."""
+    low, high = _ems(cell.children)
+    size, mark = SIZE * (_BOLD if cell.head else 1), SIZE * bool(cell.mark)
+    return size * low + mark, size * high + mark
 
 
 def unbroken(cell: Cell) -> bool:
@@ -66,7 +69,7 @@ def words(text: str) -> list[str]:
 
 def height(grid: Grid) -> float:
     """The height of a table on a page in points, by estimate: its columns share the room by what they hold."""
-    needs = [_ems([Text(plain(cell.children, "text"))]) * SIZE for cell in grid.cells]
+    needs = [SIZE * _letters(plain(cell.children, "text")) for cell in grid.cells]
     widths = [0.0] * grid.columns
     for cell, need in zip(grid.cells, needs, strict=True):
         if cell.colspan == 1:
@@ -79,36 +82,49 @@ def height(grid: Grid) -> float:
     return sum(count * LINE + GAP for count in lines)
 
 
-def _near(estimates: list[tuple[int, float | None, str]]) -> tuple[int, ...]:
-    """The places whose estimate is near the largest or unknown, one of each shape."""
-    least = NEAR * max((width for _, width, _ in estimates if width is not None), default=0.0)
+def _near(estimates: list[tuple[int, Range, str]]) -> tuple[int, ...]:
+    """The places whose estimate may come near the largest, one of each shape."""
+    least = NEAR * max((low for _, (low, _), _ in estimates), default=0.0)
     found: dict[str, int] = {}
-    for place, width, shape in estimates:
-        if width is None or width >= least:
+    for place, (_, high), shape in estimates:
+        if high >= least:
             found.setdefault(shape, place)
     return tuple(found.values())
 
 
-def _longest(cell: Cell) -> float:
-    return SIZE * max((_ems([Text(word)]) for word in words(plain(cell.children, "text"))), default=0.0)
+def _longest(cell: Cell) -> Range:
+    """The widest piece of a cell that may be broken into lines: a word or a formula."""
+    texts = plain([node for node in cell.children if not isinstance(node, Math)])
+    pieces = [(width, width) for width in map(_letters, words(texts))]
+    pieces += [_ems([node]) for node in cell.children if isinstance(node, Math)]
+    return SIZE * max(low for low, _ in pieces), SIZE * max(high for _, high in pieces)
 
 
-def _ems(nodes: list[Inline]) -> float | None:
-    """The width in the size of the letters, or None for what is neither text nor code."""
-    total = 0.0
+def _ems(nodes: list[Inline]) -> Range:
+    """The width in the size of the letters. A formula is known by the characters it is read as, roughly."""
+    low = high = 0.0
     for node in nodes:
         match node:
             case Text(text):
-                total += sum(_EM.get(letter, _USUAL) for letter in text)
+                least = most = _letters(text)
             case Code(text):
-                total += _FIXED * len(text)
+                least = most = _FIXED * len(text)
+            case Math():
+                length = len(plain([node], "text"))
+                least, most = 0.2 * length, 0.7 * length
             case Anchor():
-                pass
-            case Styled(_, inside) if (width := _ems(inside)) is not None:
-                total += width * _BOLD
+                continue
+            case Styled(_, inside):
+                least, most = _ems(inside)
+                most *= _BOLD
             case _:
-                return None
-    return total
+                least, most = 0.0, inf
+        low, high = low + least, high + most
+    return low, high
+
+
+def _letters(text: str) -> float:
+    return sum(_EM.get(letter, _USUAL) for letter in text)
 
 
 def _shape(cell: Cell) -> str:

@@ -44,11 +44,13 @@ from loopbook.pipeline.export.model import (
 from loopbook.pipeline.export.report import beside
 from loopbook.pipeline.export.svg_fonts import with_known_fonts
 
+STYLES = ("emph", "strong", "strike", "underline", "sub", "super")
 IMPORT = '#import "report.typ": ' + ", ".join(
     (
         *("report", "book", "part", "chapter", "section", "landscape"),
-        *("m", "long-m", "code", "inner", "outer", "page-of", "task", "inline-picture"),
-        *("listing", "formula", "drawing", "data-table", "thematic-break"),
+        *("m", "long-m", "code", "inner", "outer", "page-of", "task", "quoted", "inline-picture"),
+        *("listing", "formula", "drawing", "data-table", "thematic-break", "marked"),
+        *("probe", "probe-code", *(f"probe-{style}" for style in STYLES)),
     )
 )
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
@@ -58,7 +60,6 @@ LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 208
 """Points of height, by estimate, from which on a table may go on over pages: three tenths of a page."""
-_STYLES = {name: name for name in ("emph", "strong", "strike", "underline", "sub", "super")}
 _UNBROKEN = re.compile(r"\S{60}")
 
 
@@ -94,6 +95,8 @@ class TypstWriter:
     name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
     leads to its own PDF beside this one. turned: the tables that get a landscape page, by name and count ("a/b 3").
+    probing: write what is only measured. The engine looks for a measured element in the page and, having found it, lays
+    all out anew; so what is measured equals nothing on the page, but is as wide.
     """
 
     name: str = ""
@@ -104,6 +107,7 @@ class TypstWriter:
     cell: int = 0
     tables: int = 0
     in_table: bool = False
+    probing: bool = False
 
     def report_cell(self, cell: ReportCell) -> str:
         """The source of one cell of the notebook, its anchor on its first block."""
@@ -137,7 +141,7 @@ class TypstWriter:
                 parts = [f"terms.item([{self.inline(term)}], [{self.blocks(body)}])" for term, body in items]
                 return f"#terms({', '.join(parts)})"
             case Quote(blocks):
-                return f"#quote(block: true)[{self.blocks(blocks)}]"
+                return f"#quoted[{self.blocks(blocks)}]"
             case Rule():
                 return "#thematic-break()"
             case Grid():
@@ -178,11 +182,11 @@ class TypstWriter:
             case Text(text):
                 return f"#{literal(breakable(text))};" if text else ""
             case Code(text):
-                return f"#code({literal(self.code(text))});"
+                return f"#{'probe-code' if self.probing else 'code'}({literal(self.code(text))});"
             case Math(latex):
                 return self.math(latex)
             case Styled(style, children):
-                return f"#{_STYLES[style]}[{self.inline(children)}];"
+                return f"#{'probe-' if self.probing else ''}{style}[{self.inline(children)}];"
             case Link():
                 return self.link(node)
             case PageNumber(target):
@@ -204,6 +208,8 @@ class TypstWriter:
 
     def math(self, latex: str) -> str:
         """A formula inside a line. A long one comes with its pieces, so that it is known whether lines can hold it."""
+        if self.probing:
+            return f"#probe(${as_typst(latex, False)}$);"
         formula = f"{literal(as_text(latex))}, ${as_typst(latex, False)}$"
         if len(as_text(latex)) < LONG_FORMULA:
             return f"#m({formula});"
@@ -212,6 +218,8 @@ class TypstWriter:
 
     def link(self, link: Link) -> str:
         inside = self.inline(link.children)
+        if self.probing:
+            return inside
         if link.kind == "internal":
             return f"#inner({self.label(link.target)})[{inside}];"
         if link.kind == "notebook" and self.chapters is not None:
@@ -248,16 +256,27 @@ class TypstWriter:
         return f"#landscape[{table}]" if id in self.turned else table
 
     def measured(self, grid: Grid) -> str:
-        """What the engine measures to know the columns: for each column cells by their place, and solid pieces."""
+        """What the engine measures to know the columns: for each its widest cells, and pieces that no line end divides;
+        then the cells over several columns."""
+        self.probing = True
         found = deciding(grid)
         columns = []
-        for x in range(grid.columns):
-            pieces = []
-            for place in found.solid[x]:
-                cell = grid.cells[place]
-                pieces.append(f"{place}, " if unbroken(cell) else self._solid(cell.children))
-            columns.append(f"(({''.join(f'{place}, ' for place in found.widest[x])}), ({''.join(pieces)}))")
-        return f"({', '.join(columns)},)"
+        for widest, solid in zip(found.widest, found.solid, strict=True):
+            cells = "".join(f"{self.probe(grid.cells[place])}, " for place in widest)
+            pieces = (
+                f"{self.probe(cell)}, " if unbroken(cell) else self._solid(cell)
+                for cell in (grid.cells[place] for place in solid)
+            )
+            columns.append(f"(({cells}), ({''.join(pieces)}))")
+        wide = "".join(f"({c.x}, {c.colspan}, {self.probe(c)}), " for c in grid.cells if c.colspan > 1)
+        self.probing = False
+        return f"({', '.join(columns)},), ({wide})"
+
+    def probe(self, cell: Cell) -> str:
+        body = f"[{self.inline(cell.children)}]"
+        if cell.mark:
+            return f"marked({literal(cell.mark)}, {body})"
+        return f"probe-strong({body})" if cell.head else body
 
     def table_cell(self, cell: Cell) -> str:
         optional = ""
@@ -269,18 +288,20 @@ class TypstWriter:
         body = self.inline(cell.children)
         return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
 
-    def _solid(self, nodes: list[Inline]) -> str:
+    def _solid(self, cell: Cell) -> str:
         """The pieces of a cell that no line end divides, the longest word and each formula."""
+        nodes = cell.children
         longest = max(words(breakable(plain([n for n in nodes if not isinstance(n, Math | Code)]))), key=len)
         parts = [f"[#{literal(longest)};]"] if longest else []
         for node in nodes:
             if isinstance(node, Code):
                 parts.append(f"[{self.node(Code(max(words(self.code(node.text)), key=len)))}]")
-            elif isinstance(node, Math) and len(as_text(node.latex)) < LONG_FORMULA:
-                parts.append(f"[{self.node(node)}]")
             elif isinstance(node, Math):
-                parts += [f"${as_typst(part, False)}$" for part in _lines(node.latex)]
-        return "".join(f"{part}, " for part in parts)
+                short = len(as_text(node.latex)) < LONG_FORMULA
+                parts += [
+                    f"probe(${as_typst(part, False)}$)" for part in ([node.latex] if short else _lines(node.latex))
+                ]
+        return "".join(f"probe-strong({part}), " if cell.head else f"{part}, " for part in parts)
 
     def picture(self, picture: Picture) -> str:
         """The arguments that name a picture: file, alternative text, width in points or none."""
