@@ -9,6 +9,7 @@ from functools import cache
 from sympy import Eq, Expr, Symbol, collect, symbols
 
 from derivations import pid_code as code
+from derivations.equality import equality
 from derivations.equivalence import one_pass, states_from
 from derivations.pid_laws import K, Td, Ti, b
 from derivations.rational import factored, solved_for, vanishes
@@ -26,7 +27,7 @@ def keep_p_plus_i() -> Eq:
     """Eq. 4.10: the I_new for which P + I is the same with the old and the new K and b."""
     proportional = next(a.value for a in code.separate().before if a.target == code.P)
     old, new = proportional.subs(OLD) + I_old, proportional.subs(NEW) + I_new
-    return Eq(I_new, collect(solved_for(I_new, old, new).expand(), [OLD[K], NEW[K]]))
+    return equality(I_new, collect(solved_for(I_new, old, new).expand(), [OLD[K], NEW[K]]))
 
 
 def _changed(name: str, expr: Expr) -> Expr:
@@ -66,19 +67,26 @@ def jump(figure: str, setting: str, steady: bool, correct: bool = True) -> Expr:
 
 
 @cache
+def _filtered() -> Expr:
+    """The filtered measurement that the new K, T_d and T_f would need for the same D, from D_new = D_old."""
+    wanted = Symbol("y_fnew", real=True)
+    gain_old, gain_new = code.derivative_gain().subs(OLD), code.derivative_gain().subs(NEW)
+    return solved_for(wanted, gain_new * (wanted - code.y), gain_old * (code.yf_old - code.y))
+
+
+@cache
 def keep_derivative(figure: str) -> dict[Symbol, Expr]:
     """New states for which D is the same with new K, T_d and T_f, for the same y; with eq. 4.10 nothing jumps.
 
-    Solved from D_new = D_old for the filtered measurement that the new settings would need. For the programs with the
-    state x this is x + (p24_new - p24_old) y, without a division: it holds for any settings, also T_d = 0 or T_f = 0.
+    Solved for the filtered measurement that the new settings would need. For the programs with the state x this is
+    x + (p24_new - p24_old) y, without a division: it holds for any settings, also T_d = 0 or T_f = 0.
     In the others T_d_new must not be zero (figure 4.11: nor T_f_new).
     """
     wanted = Symbol("y_fnew", real=True)
-    gain_old, gain_new = code.derivative_gain().subs(OLD), code.derivative_gain().subs(NEW)
-    filtered = solved_for(wanted, gain_new * (wanted - code.y), gain_old * (code.yf_old - code.y))
     states = states_from(figure, wanted, code.y_old)
-    new = {s: factored(value.subs(NEW).subs(wanted, filtered)) for s, value in states.items()}
+    new = {s: value.subs(NEW).subs(wanted, _filtered()) for s, value in states.items()}
     if figure in ("4.12", "4.13"):
+        gain_old, gain_new = code.derivative_gain().subs(OLD), code.derivative_gain().subs(NEW)
         old_x = solved_for(code.yf_old, gain_old * code.yf_old, code.x)
         p24_old, p24_new = Symbol("p_24old"), Symbol("p_24new")
         in_x = new[code.x].subs(code.yf_old, old_x)
@@ -86,7 +94,7 @@ def keep_derivative(figure: str) -> dict[Symbol, Expr]:
         if not vanishes(in_x - shorter.subs({p24_old: gain_old, p24_new: gain_new})):
             raise ArithmeticError(f"figure {figure}: the update of x is {in_x}")
         return {code.x: shorter}
-    return new
+    return {s: factored(value) for s, value in new.items()}
 
 
 @cache

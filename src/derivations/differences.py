@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from sympy import Add, Derivative, Eq, Expr, Function, Rational, Symbol, collect, expand, factor
 from sympy.core.function import AppliedUndef
 
+from derivations.equality import both_sides, equality
 from derivations.rational import solved_for, vanishes
 
 h = Symbol("h", positive=True)
@@ -62,7 +63,7 @@ def discretise(law: Eq, difference: Difference) -> Eq:
 
     slopes = {d: slope(d) for d in law.atoms(Derivative)}
     means = {f: mean(f) for f in law.atoms(AppliedUndef) if f.args == (t,)}
-    return law.xreplace(slopes | means)
+    return both_sides(lambda side: side.xreplace(slopes | means), law)
 
 
 def by_signals(expr: Expr) -> dict[Expr, Expr]:
@@ -82,7 +83,8 @@ def update(law: Eq, state: str, difference: Difference) -> Eq:
     """
     equation = discretise(law, difference)
     newest = at(state, 1) if equation.has(at(state, 1)) else at(state)
-    return Eq(newest, Add(*(gain * sample for sample, gain in by_signals(solved_for(newest, *equation.args)).items())))
+    gains = by_signals(solved_for(newest, *equation.args))
+    return equality(newest, Add(*(gain * sample for sample, gain in gains.items())))
 
 
 def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol, Expr], Eq]:
@@ -107,4 +109,4 @@ def name_gains(equation: Eq, names: Mapping[Symbol, Expr]) -> tuple[dict[Symbol,
         return through
 
     terms = Add(*(short(gain) * sample for sample, gain in gains.items()))
-    return defined, Eq(equation.lhs, collect(terms, list(defined)))
+    return defined, equality(equation.lhs, collect(terms, list(defined)))

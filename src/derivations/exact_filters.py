@@ -9,6 +9,7 @@ from functools import cache
 from sympy import Add, Eq, Expr, Function, Symbol, diff, exp, limit, log, simplify, symbols
 
 from derivations.differences import at, by_signals, h, t
+from derivations.equality import equality
 from derivations.pid_laws import K, Td
 from derivations.rational import vanishes
 from derivations.rc_filter import Tf, filter_law
@@ -41,19 +42,19 @@ def low_pass_held() -> Eq:
 
     It knows y(t_k) only at the next sample; the printed form uses y(t_k) at once.
     """
-    return Eq(at("y_f"), _samples(_after_one_sample(_from), "y_f", "y"))
+    return equality(at("y_f"), _samples(_after_one_sample(_from), "y_f", "y"))
 
 
 @cache
 def low_pass_current() -> Eq:
     """y_f(t_k) = a y_f(t_{k-1}) + (1 - a) y(t_k): the same pole with the newest measurement, the drop-in for 4.9."""
-    return Eq(at("y_f"), low_pass_held().rhs.subs(at("y", -1), at("y")))
+    return equality(at("y_f"), low_pass_held().rhs.subs(at("y", -1), at("y")))
 
 
 @cache
 def low_pass_line() -> Eq:
     """y_f exact for a y that runs straight from y(t_{k-1}) to y(t_k)."""
-    return Eq(at("y_f"), _samples(_after_one_sample(_from + (_to - _from) * t / h), "y_f", "y"))
+    return equality(at("y_f"), _samples(_after_one_sample(_from + (_to - _from) * t / h), "y_f", "y"))
 
 
 @cache
@@ -64,7 +65,7 @@ def filtered_derivative_line() -> Eq:
     """
     slope = -K * Td * (_to - _from) / h
     expr = _after_one_sample(slope).subs(_start, at("D_f", -1)).subs({_from: at("y", -1), _to: at("y")})
-    return Eq(at("D_f"), Add(*(simplify(gain) * sample for sample, gain in by_signals(expr).items())))
+    return equality(at("D_f"), Add(*(simplify(gain) * sample for sample, gain in by_signals(expr).items())))
 
 
 @cache
@@ -80,7 +81,7 @@ def filtered_derivative_held() -> Eq:
     gain_old = simplify(diff(d_new, yf_old) / diff(d_old, yf_old))
     rest = simplify(d_new - gain_old * d_old)
     terms = (simplify(gain) * sample for sample, gain in by_signals(rest).items())
-    return Eq(at("D_f"), Add(gain_old * at("D_f", -1), *terms))
+    return equality(at("D_f"), Add(gain_old * at("D_f", -1), *terms))
 
 
 @cache

@@ -8,6 +8,7 @@ from functools import cache
 from sympy import Derivative, Eq, Expr, Function, Integral, Symbol, symbols
 
 from derivations.differences import t
+from derivations.equality import both_sides, equality
 from derivations.rc_filter import filter_law
 
 K = Symbol("K", real=True)
@@ -24,44 +25,44 @@ def error() -> Expr:
 
 def proportional() -> Eq:
     """P = K (b y_sp - y)."""
-    return Eq(P(t), K * (b * ysp(t) - y(t)))
+    return equality(P(t), K * (b * ysp(t) - y(t)))
 
 
 def integral() -> Eq:
     """I = K / T_i times the integral of e from 0 to t."""
-    return Eq(I(t), K / Ti * Integral(e(tau), (tau, 0, t)))
+    return equality(I(t), K / Ti * Integral(e(tau), (tau, 0, t)))
 
 
 def integral_tracking() -> Eq:
     """The same plus 1 / T_t times the integral of u - v, the part of the output that the limits cut away."""
-    return Eq(I(t), integral().rhs + Integral(u(tau) - v(tau), (tau, 0, t)) / Tt)
+    return equality(I(t), integral().rhs + Integral(u(tau) - v(tau), (tau, 0, t)) / Tt)
 
 
 def derivative() -> Eq:
     """D = -K T_d y_f': derivative of the filtered measurement."""
-    return Eq(D(t), -K * Td * Derivative(yf(t), t))
+    return equality(D(t), -K * Td * Derivative(yf(t), t))
 
 
 def raw_derivative() -> Eq:
     """D = -K T_d y': the same without filter."""
-    return derivative().subs(yf(t), y(t))
+    return both_sides(lambda side: side.subs(yf(t), y(t)), derivative())
 
 
 def derivative_on_error() -> Eq:
     """D = K T_d e': derivative of the error, without filter (figure 4.7)."""
-    return Eq(D(t), K * Td * Derivative(e(t), t))
+    return equality(D(t), K * Td * Derivative(e(t), t))
 
 
 @cache
 def filtered_derivative() -> Eq:
     """T_f D_f' = -D_f - K T_d y': the filter applied to D instead of to y."""
-    return filter_law("D_f", "D").subs(D(t), raw_derivative().rhs)
+    return both_sides(lambda side: side.subs(D(t), raw_derivative().rhs), filter_law("D_f", "D"))
 
 
 @cache
 def rate(law: Eq) -> Eq:
     """Both sides differentiated with respect to t: an integral law becomes a differential equation."""
-    return Eq(law.lhs.diff(t), law.rhs.diff(t).doit())
+    return equality(law.lhs.diff(t), law.rhs.diff(t).doit())
 
 
 def pi_law() -> Expr:

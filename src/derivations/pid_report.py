@@ -9,18 +9,19 @@ from derivations import pid_code as code
 from derivations import pid_updates as term
 from derivations.bumpless import keep_p_plus_i
 from derivations.differences import at
+from derivations.equality import equality
 from derivations.labels import Labels
 
 EQUATIONS = Labels("pid-report")
 
 
 def _gain(program: code.Program, symbol: Symbol) -> Eq:
-    return Eq(symbol, program.gain_values()[symbol])
+    return equality(symbol, program.gain_values()[symbol])
 
 
 def _assigned(program: code.Program, symbol: Symbol) -> Eq:
     (value,) = (a.value for a in program.before + program.after if a.target == symbol)
-    return Eq(symbol, value)
+    return equality(symbol, value)
 
 
 @EQUATIONS("4.1")
@@ -30,17 +31,17 @@ def proportional() -> Eq:
 
 @EQUATIONS("4.2")
 def saturation() -> Eq:
-    return Eq(at("u"), term.saturated_by_cases(at("v")))
+    return equality(at("u"), term.saturated_by_cases(at("v")))
 
 
 @EQUATIONS("4.3")
 def integral_gain() -> Eq:
-    return Eq(term.p3, term.integral_tracking().gains[term.p3])
+    return equality(term.p3, term.integral_tracking().gains[term.p3])
 
 
 @EQUATIONS("4.4")
 def tracking_gain() -> Eq:
-    return Eq(term.p4, term.integral_tracking().gains[term.p4])
+    return equality(term.p4, term.integral_tracking().gains[term.p4])
 
 
 @EQUATIONS("4.5")
@@ -50,7 +51,7 @@ def integral() -> Eq:
 
 @EQUATIONS("4.6")
 def derivative_gain() -> Eq:
-    return Eq(term.p5, term.derivative().gains[term.p5])
+    return equality(term.p5, term.derivative().gains[term.p5])
 
 
 @EQUATIONS("4.7")
@@ -60,7 +61,7 @@ def derivative() -> Eq:
 
 @EQUATIONS("4.8")
 def filter_gain() -> Eq:
-    return Eq(term.p1, term.low_pass().gains[term.p1])
+    return equality(term.p1, term.low_pass().gains[term.p1])
 
 
 @EQUATIONS("4.9")
@@ -75,12 +76,12 @@ def bumpless_change() -> Eq:
 
 @EQUATIONS("4.11")
 def merged_filter_gain() -> Eq:
-    return Eq(term.p3, term.filtered_derivative().gains[term.p3])
+    return equality(term.p3, term.filtered_derivative().gains[term.p3])
 
 
 @EQUATIONS("4.12")
 def merged_derivative_gain() -> Eq:
-    return Eq(term.p24, term.filtered_derivative().gains[term.p24])
+    return equality(term.p24, term.filtered_derivative().gains[term.p24])
 
 
 @EQUATIONS("4.13")
@@ -97,7 +98,7 @@ def derivative_from_state() -> Eq:
 def state_from_derivative() -> Eq:
     """Written before the output is set: with the values of the sample before."""
     _, known = code.split(code.merged().before[1].value, code.y)
-    return Eq(code.x, known)
+    return equality(code.x, known)
 
 
 @EQUATIONS("4.16")

@@ -10,6 +10,7 @@ from sympy import Eq, Expr, Max, Min, Piecewise, Symbol, collect, symbols
 
 from derivations import pid_laws as law
 from derivations.differences import BACKWARD, FORWARD, TUSTIN, at, discretise, name_gains, update
+from derivations.equality import both_sides, equality
 from derivations.rc_filter import filter_law
 
 p1, p3, p4, p5, p24 = symbols("p_1 p_3 p_4 p_5 p_24")
@@ -25,7 +26,7 @@ class Term:
 
     def full(self) -> Eq:
         """The equation with its gains written out."""
-        return self.equation.subs(self.gains)
+        return both_sides(lambda side: side.subs(self.gains), self.equation)
 
 
 @cache
@@ -55,7 +56,7 @@ def saturation_residuals() -> tuple[Expr, ...]:
 @cache
 def sampled_error() -> Expr:
     """e(t_k) = y_sp(t_k) - y(t_k)."""
-    return discretise(Eq(at("e"), law.error()), BACKWARD).rhs
+    return discretise(equality(at("e"), law.error()), BACKWARD).rhs
 
 
 @cache
@@ -69,7 +70,7 @@ def integral_tracking() -> Term:
     """Eqs 4.3 to 4.5: forward difference of the integral with tracking, e written as y_sp - y."""
     raw = update(law.rate(law.integral_tracking()), "I", FORWARD)
     gains, short = name_gains(raw, {p3: at("e"), p4: at("u")})
-    return Term(gains, Eq(short.lhs, collect(short.rhs.subs(at("e"), sampled_error()), list(gains))))
+    return Term(gains, equality(short.lhs, collect(short.rhs.subs(at("e"), sampled_error()), list(gains))))
 
 
 @cache
@@ -93,7 +94,7 @@ def filtered_derivative() -> Term:
     """Eqs 4.11 to 4.13: backward difference of T_f D_f' = -D_f - K T_d y'."""
     raw = update(law.filtered_derivative(), "D_f", BACKWARD)
     gains, short = name_gains(raw, {p3: at("D_f", -1), p24: at("y", -1)})
-    return Term(gains, Eq(short.lhs, short.rhs.expand()))
+    return Term(gains, equality(short.lhs, short.rhs.expand()))
 
 
 @cache

@@ -8,6 +8,7 @@ from functools import cache
 from sympy import Eq, Expr, Function, I, Rational, Symbol, cancel, expand, pi, simplify, sqrt, symbols
 
 from derivations.differences import h, t
+from derivations.equality import both_sides, equality
 from derivations.rational import solved_for
 
 R, C, Tf, omega, attenuation = symbols("R C T_f omega a", positive=True)
@@ -23,14 +24,14 @@ def circuit_law() -> Eq:
     slope = V_out(t).diff(t)
     around = V_in(t) - V_R(t) - V_out(t)
     without_current = around.subs(V_R(t), R * current(t)).subs(current(t), C * slope)
-    return Eq(R * C * slope, expand(R * C * solved_for(slope, without_current)))
+    return equality(R * C * slope, expand(R * C * solved_for(slope, without_current)))
 
 
 @cache
 def filter_law(output: str = "y_f", source: str = "y") -> Eq:
     """T_f y_f' = -y_f + y: the circuit's law with T_f = R C and the names of a measured signal."""
-    law = circuit_law().subs(R, Tf / C)
-    return law.subs({V_out(t): Function(output)(t), V_in(t): Function(source)(t)}).doit()
+    names = {V_out(t): Function(output)(t), V_in(t): Function(source)(t)}
+    return both_sides(lambda side: side.subs(R, Tf / C).subs(names).doit(), circuit_law())
 
 
 @cache
