@@ -3,7 +3,7 @@
 import pytest
 
 from loopbook.display import Equation, Table
-from loopbook.pipeline.export import ExportError, book
+from loopbook.pipeline.export import ExportError, book, typst_engine
 from loopbook.pipeline.export.book import Chapter, LinkedTable, Page, export_book
 
 
@@ -101,3 +101,23 @@ def test_empty_books_and_names_twice(chapters):
         export_book([], title="Book")
     with pytest.raises(ValueError, match="twice here: d/01"):
         export_book([chapters[0], chapters[0]], title="Book")
+
+
+def test_a_table_that_a_report_turned_is_not_found_too_wide_again(make, monkeypatch):
+    wide = make.code(Table([f"column {x}" for x in range(16)], [["1234.5"] * 16] * 3, "Wide"))
+    chapter = Chapter("d/01", make.notebook("# First", wide))
+    monkeypatch.setattr(typst_engine, "_wide", set())
+    written = []
+    compiled = typst_engine.compile_pdf
+
+    def spy(source, files):
+        written.append(source)
+        return compiled(source, files)
+
+    monkeypatch.setattr(typst_engine, "compile_pdf", spy)
+    alone = export_book([chapter], title="Book")
+    assert ["#landscape[" in source for source in written] == [False, True]
+    assert export_book([chapter], title="Book") == alone and len(written) == 3
+    other = make.notebook("# First", make.code(Table(["column"], [["1234.5"]] * 3, "Narrow")))
+    export_book([Chapter("d/01", other)], title="Book")
+    assert len(written) == 4 and "#landscape[" not in written[-1], "the same place holds another table now"

@@ -180,7 +180,7 @@ def _of_chapter(error: TypstFailed) -> ExportError:
     for diagnostic in error.diagnostics:
         table = too_wide_table(diagnostic)
         if table:
-            name = table.rpartition(" ")[0]
+            name = table.rsplit(" ", 2)[0]
         elif diagnostic.line is not None:
             above = error.source.split("\n")[: diagnostic.line]
             name = next((line[11:] for line in reversed(above) if line.startswith("// chapter ")), name)

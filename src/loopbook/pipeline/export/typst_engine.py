@@ -100,13 +100,17 @@ LANDSCAPE_FROM = 40
 """The share, in percent, of its size at which a table fits a portrait page, from which on it fits a landscape one."""
 
 
+_wide: set[str] = set()
+"""The tables that this process found too wide; by content, so that a book need not find them again."""
+
+
 def compile_turning(write: Callable[[frozenset[str]], tuple[str, dict[str, bytes]]]) -> bytes:
     """Compile what `write` gives for a set of turned tables.
 
     A table too wide for the page is turned, onto a landscape page, and all is written and compiled again.
     Raises TypstFailed, with the last source and files as its `source` and `files`.
     """
-    turned: frozenset[str] = frozenset()
+    turned = frozenset(_wide)
     while True:
         source, files = write(turned)
         try:
@@ -118,6 +122,7 @@ def compile_turning(write: Callable[[frozenset[str]], tuple[str, dict[str, bytes
                 error.source, error.files = source, files
                 raise
             turned |= more
+            _wide.update(more)
 
 
 def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | None]) -> tuple[int | None, str]:
@@ -140,7 +145,7 @@ def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | N
 
 
 def too_wide_table(diagnostic: Diagnostic) -> str:
-    """The name and count of the table that is too wide, or nothing."""
+    """The name, count and content of the table that is too wide, or nothing."""
     wide = _TOO_WIDE.search(diagnostic.message)
     return wide["table"] if wide else ""
 

@@ -94,7 +94,8 @@ class TypstWriter:
 
     name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
-    leads to its own PDF beside this one. turned: the tables that get a landscape page, by name and count ("a/b 3").
+    leads to its own PDF beside this one. turned: the tables that get a landscape page, by name, count and content
+    ("a/b 3 1f0c").
     probing: write what is only measured. The engine looks for a measured element in the page and, having found it, lays
     all out anew; so what is measured equals nothing on the page, but is as wide.
     """
@@ -247,7 +248,7 @@ class TypstWriter:
         caption = f"[{self.inline(grid.caption)}]" if grid.caption else "none"
         notes = "".join(f"[{self.inline(note)}], " for note in grid.notes)
         self.tables += 1
-        id = f"{self.name} {self.tables}"
+        id = f"{self.name} {self.tables} {hashlib.sha256(measured.encode()).hexdigest()[:16]}"
         where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.rows}, {grid.head_rows}"
         short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
