@@ -16,7 +16,7 @@ HERE = Path(__file__).parent
 
 
 def watch(project: Project, names: tuple[str, ...], parameters: Any, wanted: Wanted, options: dict[str, Any]) -> None:
-    """Until Ctrl-C. Where the pipeline itself changed, the process starts anew to load it."""
+    """Until Ctrl-C. Where something changed that this process has loaded, it starts anew to load that."""
     console = Console()
     while True:
         before = snapshot(project, names)
@@ -30,8 +30,14 @@ def watch(project: Project, names: tuple[str, ...], parameters: Any, wanted: Wan
         console.line("watching; Ctrl-C ends it")
         changed = wait_for_change(project, names, before)
         console.line(f"\nchanged: {_shown(project, changed)}")
-        if any(p.is_relative_to(HERE) for p in changed):
+        if any(_loaded(p) for p in changed):
             os.execv(sys.executable, [sys.executable, "-m", "loopbook.cli", *sys.argv[1:]])
+
+
+def _loaded(path: Path) -> bool:
+    """Is the file part of the pipeline, a module that it imported, or data that it keeps?"""
+    modules = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
+    return path.is_relative_to(HERE) or str(path) in modules or path.suffix == ".toml"
 
 
 def snapshot(project: Project, names: tuple[str, ...]) -> dict[Path, int]:
