@@ -5,7 +5,7 @@ Source: pid-report, sections 3.1 and 3.2.3: u = K (y_sp - y) + u_b.
 
 from functools import cache
 
-from sympy import Eq, Expr, Symbol, limit, oo, solve, symbols
+from sympy import Expr, Symbol, expand, limit, oo, roots, symbols
 
 from derivations.pid_laws import K, b
 from derivations.rational import factored, solved_for
@@ -47,7 +47,10 @@ def offset_needed() -> Expr:
 @cache
 def rest_drag() -> Expr:
     """The positive y at rest where the drag grows with the square: u = u_0 (y / v_0)^2."""
-    return solve(Eq(u_0 * (y / speed_0) ** 2, output()), y)[1]
+    both = roots(expand(u_0 * (y / speed_0) ** 2 - output()), y)
+    at = dict.fromkeys((K, u_0, speed_0, ysp, u_b), 1)
+    (positive,) = [root for root in both if root.subs(at) > 0]
+    return factored(positive)
 
 
 def _loop(setpoint: Expr, disturbance: Expr) -> Expr:

@@ -13,6 +13,9 @@ which f and b are the two zeros' angles and a that of the filter's pole.
 from functools import cache
 
 import sympy as sp
+from sympy.simplify.fu import TR10i
+
+from derivations.rational import solved_for, vanishes
 
 s = sp.Symbol("s")
 w, k = sp.symbols("w k", positive=True)
@@ -38,7 +41,7 @@ def controller() -> sp.Expr:
 @cache
 def lead() -> sp.Expr:
     """The angle b that gives the loop the phase margin phi_m, where the process has the phase phi_p at w [rad]."""
-    return sp.solve(sp.Eq(phase + f + b - a - sp.pi / 2, -sp.pi + margin), b)[0]
+    return sp.expand(solved_for(b, phase + f + b - a - sp.pi / 2, -sp.pi + margin))
 
 
 @cache
@@ -53,9 +56,10 @@ def parallel() -> dict[str, sp.Expr]:
     N = w / sp.tan(a)
     with_pole = k * factor(f) * factor(b) / sp.sin(a)  # (s + N) s C
     pole = -w * sp.cos(a) / sp.sin(a)
-    D = sp.simplify(-with_pole.subs(s, pole) / pole**3)
-    I = sp.simplify((controller() * s).subs(s, 0))
+    D = TR10i(sp.factor(-with_pole.subs(s, pole) / pole**3))  # sin a cos b - cos a sin b = sin(a - b)
+    I = (controller() * s).subs(s, 0)
     P = k * (sp.sin(b + f) - sp.tan(a) * sp.cos(b) * sp.cos(f)) / sp.cos(a)
-    if sp.simplify(sp.expand_trig(with_pole.expand().coeff(s, 1) - I - P * N)) != 0:
+    rest = sp.expand_trig(with_pole.expand().coeff(s, 1) - I - P * N)
+    if not vanishes(rest.subs(sp.tan(a), sp.sin(a) / sp.cos(a))):
         raise AssertionError("the coefficients of s do not agree")
     return {"P": P, "I": I, "D": D, "N": N}

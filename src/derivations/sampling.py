@@ -70,7 +70,7 @@ def modes(G: sp.Expr, s: sp.Symbol = S, t: sp.Symbol = T) -> dict[sp.Expr, sp.Ex
     for pole, order in _poles(G, s).items():
         regular = sp.cancel(sp.together(G) * (s - pole) ** order) * sp.exp(s * t)
         residue = sp.diff(regular, s, order - 1) / sp.factorial(order - 1)
-        found[pole] = sp.expand(sp.simplify(residue * sp.exp(-s * t)).subs(s, pole))
+        found[pole] = sp.expand(sp.expand(residue * sp.exp(-s * t)).subs(s, pole))
     return found
 
 

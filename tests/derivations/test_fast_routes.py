@@ -4,7 +4,17 @@ import pytest
 import sympy
 from sympy import Function, Rational, Symbol, dsolve, limit, simplify, solve, symbols
 
-from derivations import amigo, exact_filters, gain_scheduling, offset, rc_filter, robustness, two_lags, two_point_fit
+from derivations import (
+    amigo,
+    exact_filters,
+    gain_scheduling,
+    offset,
+    pid_by_angles,
+    rc_filter,
+    robustness,
+    two_lags,
+    two_point_fit,
+)
 from derivations.differences import BACKWARD, FORWARD, TUSTIN, at, discretise, h, t, update
 from derivations.pid_laws import derivative, filtered_derivative, integral_tracking, rate
 from derivations.rc_filter import R, Tf, filter_law
@@ -105,3 +115,19 @@ def test_static_output_and_rest_as_solve_finds_them():
     assert solve(g.acceleration().subs(g.v, 0), g.y) == [g.static_output()]
     (slow,) = solve(offset.y - offset.gain * offset.output() - offset.load, offset.y)
     assert simplify(offset.rest_linear() - slow) == 0
+
+
+def test_rest_against_drag_as_solve_finds_it():
+    o = offset
+    at_one = dict.fromkeys((o.K, o.u_0, o.speed_0, o.ysp, o.u_b), 1)
+    (slow,) = [y for y in solve(o.u_0 * (o.y / o.speed_0) ** 2 - o.output(), o.y) if y.subs(at_one) > 0]
+    assert simplify(o.rest_drag() - slow) == 0
+
+
+def test_derivative_gain_by_angles_as_simplify_finds_it():
+    """D = -residue/N^2 at the filter's pole."""
+    p = pid_by_angles
+    without_pole = p.k * p.factor(p.f) * p.factor(p.b) / sympy.sin(p.a)  # (s + N) s C
+    pole = -p.w * sympy.cos(p.a) / sympy.sin(p.a)
+    slow = simplify(-without_pole.subs(p.s, pole) / pole**3)
+    assert p.parallel()["D"] == slow
