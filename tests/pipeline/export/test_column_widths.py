@@ -9,7 +9,7 @@ import typst
 from loopbook.pipeline.export.column_widths import SIZE, deciding, extent, height, unbroken, words
 from loopbook.pipeline.export.model import Cell, Code, Grid, Math, Text
 from loopbook.pipeline.export.typst_engine import fonts
-from loopbook.pipeline.export.typst_writer import literal
+from loopbook.pipeline.export.typst_text import literal
 
 VOCABULARY = (
     *(

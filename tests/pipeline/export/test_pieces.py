@@ -11,7 +11,7 @@ from loopbook.pipeline.export.model import Code, Math, Text, plain
 from loopbook.pipeline.export.reading import Reading
 from loopbook.pipeline.export.tables import _NUMBER, align_numbers, place
 from loopbook.pipeline.export.terminal import settle
-from loopbook.pipeline.export.typst_writer import breakable, literal
+from loopbook.pipeline.export.typst_text import breakable, literal
 
 TOKENS = [
     "a",

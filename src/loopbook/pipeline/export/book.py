@@ -22,7 +22,8 @@ from loopbook.pipeline.export.page import LinkedTable, Page, page_name, read_pag
 from loopbook.pipeline.export.pdf import as_export_error, support_files
 from loopbook.pipeline.export.report import level_headings, number_blocks, read
 from loopbook.pipeline.export.typst_engine import TypstFailed, compile_turning, too_wide_table
-from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter, literal
+from loopbook.pipeline.export.typst_text import literal
+from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter
 
 __all__ = ["Chapter", "LinkedTable", "Page", "export_book"]
 

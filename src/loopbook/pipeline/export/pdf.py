@@ -16,7 +16,8 @@ from loopbook.pipeline.export.maths import problems
 from loopbook.pipeline.export.model import Report
 from loopbook.pipeline.export.report import read
 from loopbook.pipeline.export.typst_engine import TypstFailed, cell_finder, compile_turning, explain
-from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter, literal
+from loopbook.pipeline.export.typst_text import literal
+from loopbook.pipeline.export.typst_writer import IMPORT, TypstWriter
 
 TEMPLATES = Path(__file__).parent / "templates"
 CONTENTS_FROM = 3

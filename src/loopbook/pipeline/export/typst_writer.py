@@ -43,6 +43,7 @@ from loopbook.pipeline.export.model import (
 )
 from loopbook.pipeline.export.report import beside
 from loopbook.pipeline.export.svg_fonts import with_known_fonts
+from loopbook.pipeline.export.typst_text import LONGEST_CODE_IN_A_TABLE, LONGEST_WORD, breakable, literal
 
 STYLES = ("emph", "strong", "strike", "underline", "sub", "super")
 IMPORT = '#import "report.typ": ' + ", ".join(
@@ -54,38 +55,11 @@ IMPORT = '#import "report.typ": ' + ", ".join(
     )
 )
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
-LONGEST_WORD, LONGEST_CODE_IN_A_TABLE = 44, 16
-"""Characters of a word that is never broken."""
 LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 208
 """Points of height, by estimate, from which on a table may go on over pages: three tenths of a page."""
 _UNBROKEN = re.compile(r"\S{60}")
-
-
-def literal(text: str) -> str:
-    r"""A Typst string literal.
-
-    >>> print(literal('a "b" \\ #c'))
-    "a \"b\" \\ #c"
-    """
-    text = text.replace("\\", "\\\\").replace('"', '\\"').replace("\r", "").replace("\n", "\\n").replace("\t", "\\t")
-    return f'"{text}"'
-
-
-def breakable(text: str, longest: int = LONGEST_WORD) -> str:
-    """Give words too long for a line places to break, after punctuation or each 20 characters (zero width spaces)."""
-
-    def mend(found: re.Match[str]) -> str:
-        word = found[0]
-        if len(word) <= longest:
-            return word
-        if re.match(r"https?://", word):
-            return re.sub(r"(?<=[/?&=_.-])(?=[^/])", "\u200b", word)
-        word = re.sub(r"(?<=[,;:/_.=()\[\]{}|*+-])(?=[\w(%])", "\u200b", word)
-        return re.sub(r"[^\u200b]{20}(?=[^\u200b])", lambda m: m[0] + "\u200b", word)
-
-    return re.sub(r"\S+", mend, text)
 
 
 @dataclass
