@@ -104,6 +104,9 @@ def test_a_formula_is_measured_where_it_may_be_the_widest_and_decides_for_no_tex
 def test_numbers_and_a_few_letters_are_not_broken_but_sentences_are():
     assert unbroken(Cell([Text("1.0 and more words")], align="right")) and unbroken(Cell([Text("T_i of K")]))
     assert not unbroken(Cell([Text("a whole sentence")]))
+    assert unbroken(Cell([Text("from rounded inputs")], mark="note"))
+    assert not unbroken(Cell([Text("a sentence that carries the colour of a verdict")], mark="note"))
+    assert not unbroken(Cell([Text("phase margin in degrees")], align="right", head=True))
 
 
 def test_letters_of_code_are_equally_wide():

@@ -14,6 +14,8 @@ NEAR = 0.75
 """From this share of the longest estimate of its column on a cell may be the widest."""
 SHORT = 12
 """Characters up to which a cell is not broken into lines."""
+VERDICT = 24
+"""The same for a cell with a mark: a verdict, not a sentence with a verdict's colour."""
 TEXT_WIDTH = 453
 """Points between the margins of a page."""
 SIZE = 9.5
@@ -58,8 +60,10 @@ def extent(cell: Cell) -> Range:
 
 
 def unbroken(cell: Cell) -> bool:
-    """Does the cell stay on one line: numbers, verdicts and a few letters?"""
-    return cell.align == "right" or bool(cell.mark) or len(plain(cell.children)) <= SHORT
+    """Does the cell stay on one line: numbers, verdicts and a few letters? Sentences and heads do not."""
+    if cell.align == "right" and not cell.head:
+        return True
+    return len(plain(cell.children)) <= (VERDICT if cell.mark else SHORT)
 
 
 def words(text: str) -> list[str]:
