@@ -142,7 +142,7 @@ def verify(project: Project, notebooks: tuple[str, ...]) -> None:
 @main.command()
 @click.argument("data", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="DATA...")
 @click.option("-o", "--report", type=click.Path(path_type=Path), metavar="FILE|DIR",
-              help="The report (.pdf, .html, .ipynb, .json), or a folder of them; default: beside the data.")  # fmt: skip
+              help="The report (.pdf, .html, .ipynb, .json) or their folder; default: beside the data.")  # fmt: skip
 @click.option("--aim", type=click.Choice(["robust", "fast", "no-overshoot", "quiet"]), help="What is recommended.")
 @click.option("--time", "time_column", metavar="COLUMN", help="The record's column of the time.")
 @click.option("--input", "input_column", metavar="COLUMN", help="The record's column of the input.")
