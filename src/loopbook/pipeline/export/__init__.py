@@ -52,7 +52,7 @@ def export(
         "language": language,
         "strict_alt": strict_alt,
     }
-    metadata = {"name": name.rpartition("/")[2], "path": None if assets is None else str(assets)}
+    metadata = {"name": name.rpartition("/")[2], **({} if assets is None else {"path": str(assets)})}
     output, _ = _exporter(kind).from_notebook_node(nb, {"metadata": metadata, "loopbook": told})
     return output.encode() if isinstance(output, str) else output
 

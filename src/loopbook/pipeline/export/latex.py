@@ -1,8 +1,9 @@
 """nbconvert's own LaTeX route, for those who have TeX and pandoc: mended where it breaks, and its log read.
 
 The template ``loopbook_latex`` defines the counter that pandoc's tables ask for ("No counter 'none' defined" else) and
-sets A4. After TeX has run, its log is read: a missing character or a line that runs out of the page by more than
-`OVERFULL` points is an error, not a report with a hole in it.
+sets A4. Tables and drawings get forms that it can show (`latex_outputs`). After TeX has run, its log is read:
+a missing character or a line that runs out of the page by more than `OVERFULL` points is an error, not a report with a
+hole in it.
 """
 
 import os
@@ -12,9 +13,12 @@ from typing import Any
 
 from nbconvert.exporters.pdf import LatexFailed, PDFExporter
 from traitlets import default
+from traitlets.config import Config
 
 from loopbook.pipeline.export.errors import ExportError, Problem
+from loopbook.pipeline.export.latex_outputs import DrawingsToPdf, TablesToMarkdown
 from loopbook.pipeline.export.pdf import TEMPLATES
+from loopbook.pipeline.export.typst_engine import EPOCH
 
 OVERFULL = 10.0
 """Points by which a line may run into the margin before it is an error."""
@@ -61,6 +65,19 @@ class LatexPdfExporter(PDFExporter):
 
     export_from_notebook = None
 
+    @default("default_preprocessors")
+    def _with_our_drawings(self):
+        usual = type(self).default_preprocessors.default_args[0]
+        place = next(i for i, name in enumerate(usual) if name.endswith("SVG2PDFPreprocessor"))
+        return [*usual[:place], TablesToMarkdown, DrawingsToPdf, *usual[place + 1 :]]
+
+    @property
+    def default_config(self):
+        """nbconvert's, with the drawings made here."""
+        config = super().default_config.copy()
+        config.merge(Config({name: {"enabled": True} for name in ("DrawingsToPdf", "TablesToMarkdown")}))
+        return config
+
     @default("template_name")
     def _template_name_default(self):
         return "loopbook_latex"
@@ -87,7 +104,8 @@ class LatexPdfExporter(PDFExporter):
         return pdf, resources
 
     def run_latex(self, filename: str, raise_on_failure: Any = LatexFailed) -> bool:
-        """Run TeX, then read its log."""
+        """Run TeX, with one date for all reports, then read its log."""
+        os.environ["SOURCE_DATE_EPOCH"] = str(EPOCH)
         done = super().run_latex(filename, raise_on_failure)
         log = os.path.splitext(filename)[0] + ".log"
         if os.path.isfile(log):
