@@ -1,8 +1,11 @@
 """A report is built again when something it depends on changed, and the line says what; else nothing is done."""
 
+import importlib.util
+import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -33,6 +36,19 @@ def two(bench):
 
 def lines(bench):
     return [line for line in bench.said.splitlines() if line.startswith("ok")]
+
+
+def test_a_number_changed_within_the_second_of_its_compilation_counts(two):
+    source = two.root / "src/constants.py"
+    compiled = Path(importlib.util.cache_from_source(source))
+    second = source.stat().st_mtime_ns // 10**9 * 10**9
+    for path, nanoseconds in ((source, 1), (compiled, 2)):
+        os.utime(path, ns=(second + nanoseconds, second + nanoseconds))
+    same_length = source.read_text().replace("2", "5")
+    source.write_text(same_length)
+    os.utime(source, ns=(second + 3, second + 3))
+    two.build()
+    assert two.executed("a/uses")["cells"][1]["outputs"][0]["data"]["text/plain"] == "15"
 
 
 def test_rebuilds_exactly_what_depends_on_it_and_says_why(two):

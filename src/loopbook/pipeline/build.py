@@ -3,6 +3,7 @@
 One process drives N kernels. Where nothing is to be done, nothing is imported that takes time.
 """
 
+import math
 import os
 import signal
 import threading
@@ -19,7 +20,7 @@ from loopbook.pipeline.job import Done, Job, Wanted, do, plan, repeat
 from loopbook.pipeline.project import FORMATS, Notebook, Project, UsageError
 from loopbook.pipeline.quick_imports import import_nbformat
 from loopbook.pipeline.source import Source, read_source
-from loopbook.pipeline.surroundings import environment
+from loopbook.pipeline.surroundings import drop_stale_bytecode, environment
 from loopbook.pipeline.warm import Warm
 
 OK, FAILED, USAGE, ENVIRONMENT, INTERRUPTED = 0, 1, 2, 3, 130
@@ -147,11 +148,12 @@ def _work(
 ) -> list[Done]:
     """Do the jobs, the longest first so that none is left alone at the end. Raises KeyboardInterrupt.
 
-    ready: see `warm`.
+    What never ran goes first, the last chapters before the others: they build on most. ready: see `warm`.
     """
     if not work:
         return []
-    work = sorted(work, key=lambda j: (-(j.stamp.seconds if j.stamp else 1e9), j.notebook.id))
+    work = sorted(work, key=lambda j: j.notebook.id, reverse=True)
+    work.sort(key=lambda j: -(j.stamp.seconds if j.stamp else math.inf))
     done: list[Done] = []
     with (
         _interruptible(),
@@ -181,6 +183,7 @@ def _kernels(project: Project, number: int, ready: str = ""):
     if not number:
         yield
         return
+    drop_stale_bytecode(project.root)
     worth = number >= WORTH_WARMING and warm.possible()
     warming = Warm(environment(project.root, project.cache), ready) if worth else None
     import_nbformat()

@@ -7,21 +7,26 @@ sockets. Where IPC does not exist (Windows) TCP is used, and a start that fails 
 import ast
 import asyncio
 import json
+import math
 import os
 import shutil
 import sys
 import tempfile
 import threading
+import time
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from queue import Empty
 from typing import Any
 
+from jupyter_client.asynchronous import AsyncKernelClient
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
 from jupyter_client.provisioning.local_provisioner import LocalProvisioner
 from papermill.clientwrap import PapermillNotebookClient
+from traitlets import Type
 
 from loopbook.pipeline.warm import Warm
 
@@ -57,8 +62,37 @@ class WarmProvisioner(LocalProvisioner):
         return self.connection_info
 
 
+class ReadyClient(AsyncKernelClient):
+    """jupyter_client's client, that knows a kernel to be ready by what it says, not by silence after it."""
+
+    async def _async_wait_for_ready(self, timeout: float | None = None) -> None:
+        ends = time.monotonic() + (timeout or math.inf)
+        while True:
+            asked = self.kernel_info()
+            try:
+                reply = await self.shell_channel.get_msg(timeout=1)
+                while reply["parent_header"].get("msg_id") != asked:
+                    reply = await self.shell_channel.get_msg(timeout=1)
+                while True:  # what comes before belongs to no cell; without a last word the channel was not open yet
+                    said = await self.iopub_channel.get_msg(timeout=0.1)
+                    last = said["msg_type"] == "status" and said["content"]["execution_state"] == "idle"
+                    if last and said["parent_header"].get("msg_id") == asked:
+                        self._handle_kernel_info_reply(reply)
+                        return
+            except Empty:
+                pass
+            if not await self._async_is_alive():
+                raise RuntimeError("the kernel died before it was ready")
+            if time.monotonic() > ends:
+                raise RuntimeError(f"the kernel was not ready after {timeout:g} s")
+
+    wait_for_ready = _async_wait_for_ready
+
+
 class PrivateKernelManager(AsyncKernelManager):
     """Starts this Python's kernel, whatever name the notebook gives it, on sockets in a folder of its own."""
+
+    client_factory = Type(ReadyClient)
 
     def __init__(self, **kwargs: Any):
         # Short, since the path of a socket is limited to about a hundred bytes.
@@ -91,6 +125,9 @@ class PrivateKernelManager(AsyncKernelManager):
         await super()._async_start_kernel(**kwargs)
 
     start_kernel = _async_start_kernel
+
+    async def _async_wait(self, pollinterval: float = 0.1) -> None:
+        await super()._async_wait(pollinterval=min(pollinterval, 0.01))
 
     async def _async_cleanup_resources(self, restart: bool = False) -> None:
         await super()._async_cleanup_resources(restart=restart)

@@ -1,10 +1,23 @@
 """The environment of every kernel: nothing of the user's configuration, nothing that differs between two runs."""
 
 import os
+from importlib.util import cache_from_source
 from pathlib import Path
 
 HERE = Path(__file__).parent
 EPOCH = "1577836800"  # 2020-01-01, the date inside every file that needs one
+
+
+def drop_stale_bytecode(root: Path) -> None:
+    """Remove bytecode older than its source. Python compares whole seconds and the size only: of a number changed in
+    the second in which the file was last compiled it would run the old one."""
+    for source in (root / "src").rglob("*.py"):
+        compiled = Path(cache_from_source(source))
+        try:
+            if compiled.stat().st_mtime_ns < source.stat().st_mtime_ns:
+                compiled.unlink()
+        except OSError:
+            continue
 
 
 def environment(root: Path, cache: Path) -> dict[str, str]:
