@@ -116,3 +116,10 @@ def test_letters_of_code_are_equally_wide():
 def test_a_table_gets_higher_with_its_rows_and_with_what_they_hold():
     low, long, many = column(["a"] * 3), column(["a", "word " * 80, "c"]), column(["a"] * 30)
     assert height(low) < height(long) < height(many)
+
+
+def test_a_column_of_numbers_is_tight_whatever_its_head():
+    grid = column(["a head of many words", "1.5", "2.5"], "right")
+    assert deciding(grid).tight == (True,)
+    grid.cells[1].children, grid.cells[1].align = [Text("a sentence among the numbers")], "left"
+    assert deciding(grid).tight == (False,)

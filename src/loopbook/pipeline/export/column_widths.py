@@ -34,22 +34,28 @@ Range = tuple[float, float]
 @dataclass(frozen=True)
 class Deciding:
     """By column the cells, as places in the grid's list, of which one is the widest, and of which one holds the
-    widest piece that no line end divides. Cells over several columns are in neither."""
+    widest piece that no line end divides. Cells over several columns are in neither.
+
+    tight: only the heads of the column can be broken into lines; where room is short, they are.
+    """
 
     widest: tuple[tuple[int, ...], ...]
     solid: tuple[tuple[int, ...], ...]
+    tight: tuple[bool, ...]
 
 
 def deciding(grid: Grid) -> Deciding:
     """The cells to be measured."""
     widest: list[list[tuple[int, Range, str]]] = [[] for _ in range(grid.columns)]
     solid: list[list[tuple[int, Range, str]]] = [[] for _ in range(grid.columns)]
+    tight = [True] * grid.columns
     for place, cell in enumerate(grid.cells):
         if cell.colspan == 1:
             whole, shape = extent(cell), _shape(cell)
             widest[cell.x].append((place, whole, shape))
             solid[cell.x].append((place, whole if unbroken(cell) else _longest(cell), shape))
-    return Deciding(tuple(map(_near, widest)), tuple(map(_near, solid)))
+            tight[cell.x] &= cell.head or unbroken(cell)
+    return Deciding(tuple(map(_near, widest)), tuple(map(_near, solid)), tuple(tight))
 
 
 def extent(cell: Cell) -> Range:
@@ -61,9 +67,9 @@ def extent(cell: Cell) -> Range:
 
 def unbroken(cell: Cell) -> bool:
     """Does the cell stay on one line: numbers, verdicts and a few letters? Sentences and heads do not."""
-    if cell.align == "right" and not cell.head:
-        return True
-    return len(plain(cell.children)) <= (VERDICT if cell.mark else SHORT)
+    if cell.head:
+        return False
+    return cell.align == "right" or len(plain(cell.children)) <= (VERDICT if cell.mark else SHORT)
 
 
 def words(text: str) -> list[str]:
