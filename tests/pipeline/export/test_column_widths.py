@@ -123,3 +123,9 @@ def test_a_column_of_numbers_is_tight_whatever_its_head():
     assert deciding(grid).tight == (True,)
     grid.cells[1].children, grid.cells[1].align = [Text("a sentence among the numbers")], "left"
     assert deciding(grid).tight == (False,)
+
+
+def test_one_long_cell_does_not_decide_what_a_column_needs():
+    long, even = column(["head", "word " * 60, *["word"] * 20]), column(["head", *["word " * 20] * 21])
+    assert deciding(long).weight[0] < deciding(even).weight[0]
+    assert deciding(column(["only a head"])).weight == (0.0,)

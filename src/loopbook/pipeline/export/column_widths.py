@@ -6,7 +6,7 @@ estimate from the letters, good to some ten percent for text and a rough one for
 
 import re
 from dataclasses import dataclass
-from math import ceil, inf
+from math import ceil, inf, sqrt
 
 from loopbook.pipeline.export.model import Anchor, Cell, Code, Grid, Inline, Math, Styled, Text, plain
 
@@ -36,12 +36,14 @@ class Deciding:
     """By column the cells, as places in the grid's list, of which one is the widest, and of which one holds the
     widest piece that no line end divides. Cells over several columns are in neither.
 
-    tight: only the heads of the column can be broken into lines; where room is short, they are.
+    tight: only the heads of the column can be broken into lines; where room is short, they are. weight: the root mean
+    square of its cells' widths in points: how much of the room it needs for its rows to get about as high as others'.
     """
 
     widest: tuple[tuple[int, ...], ...]
     solid: tuple[tuple[int, ...], ...]
     tight: tuple[bool, ...]
+    weight: tuple[float, ...]
 
 
 def deciding(grid: Grid) -> Deciding:
@@ -49,13 +51,17 @@ def deciding(grid: Grid) -> Deciding:
     widest: list[list[tuple[int, Range, str]]] = [[] for _ in range(grid.columns)]
     solid: list[list[tuple[int, Range, str]]] = [[] for _ in range(grid.columns)]
     tight = [True] * grid.columns
+    squares: list[list[float]] = [[] for _ in range(grid.columns)]
     for place, cell in enumerate(grid.cells):
         if cell.colspan == 1:
             whole, shape = extent(cell), _shape(cell)
             widest[cell.x].append((place, whole, shape))
             solid[cell.x].append((place, whole if unbroken(cell) else _longest(cell), shape))
             tight[cell.x] &= cell.head or unbroken(cell)
-    return Deciding(tuple(map(_near, widest)), tuple(map(_near, solid)), tuple(tight))
+            if not cell.head:
+                squares[cell.x].append(_written(cell) ** 2)
+    weight = tuple(sqrt(sum(column) / max(len(column), 1)) for column in squares)
+    return Deciding(tuple(map(_near, widest)), tuple(map(_near, solid)), tuple(tight), weight)
 
 
 def extent(cell: Cell) -> Range:
@@ -79,7 +85,7 @@ def words(text: str) -> list[str]:
 
 def height(grid: Grid) -> float:
     """The height of a table on a page in points, by estimate: its columns share the room by what they hold."""
-    needs = [SIZE * _letters(plain(cell.children, "text")) for cell in grid.cells]
+    needs = [_written(cell) for cell in grid.cells]
     widths = [0.0] * grid.columns
     for cell, need in zip(grid.cells, needs, strict=True):
         if cell.colspan == 1:
@@ -90,6 +96,11 @@ def height(grid: Grid) -> float:
         room = sum(widths[cell.x : cell.x + cell.colspan]) * share - SIZE
         lines[cell.y] = max(lines[cell.y], ceil(need / max(room, 4 * SIZE)))
     return sum(count * LINE + GAP for count in lines)
+
+
+def _written(cell: Cell) -> float:
+    """The width of a cell on one line, formulas as they are read."""
+    return SIZE * _letters(plain(cell.children, "text"))
 
 
 def _near(estimates: list[tuple[int, Range, str]]) -> tuple[int, ...]:

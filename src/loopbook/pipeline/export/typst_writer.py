@@ -236,13 +236,13 @@ class TypstWriter:
         self.probing = True
         found = deciding(grid)
         columns = []
-        for widest, solid, tight in zip(found.widest, found.solid, found.tight, strict=True):
+        for widest, solid, *kind in zip(found.widest, found.solid, found.tight, found.weight, strict=True):
             cells = "".join(f"{self.probe(grid.cells[place])}, " for place in widest)
             pieces = (
                 f"{self.probe(cell)}, " if unbroken(cell) else self._solid(cell)
                 for cell in (grid.cells[place] for place in solid)
             )
-            columns.append(f"(({cells}), ({''.join(pieces)}), {str(tight).lower()})")
+            columns.append(f"(({cells}), ({''.join(pieces)}), {str(kind[0]).lower()}, {kind[1]:.0f}pt)")
         wide = "".join(f"({c.x}, {c.colspan}, {self.probe(c)}), " for c in grid.cells if c.colspan > 1)
         self.probing = False
         return f"({', '.join(columns)},), ({wide})"
