@@ -167,8 +167,20 @@ def design(project: Project, data, report, aim, time_column, input_column, outpu
     if not notebook.is_file():
         notebook = Path(__file__).parents[2] / "notebooks" / "own_process" / "design.ipynb"
     named = [(k, v) for k, v in given.items() if v is not None]
+    where = ["-o", str(report)] if report else []
+    kinds = ["--format", formats] if chosen != ["pdf"] else []
     ready = "loopbook.design.ready:derive"
-    sys.exit(apply(project, notebook, wanted, [*named, *parameters], jobs=jobs, ready=ready).code)
+    sys.exit(
+        apply(
+            project,
+            notebook,
+            wanted,
+            [*named, *parameters],
+            jobs=jobs,
+            repeat=["loopbook", "design", *where, *kinds],
+            ready=ready,
+        ).code
+    )
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from loopbook.cli import main
-from loopbook.pipeline import ledger_files, verify
+from loopbook.pipeline import apply, ledger_files, verify
+from loopbook.pipeline.build import Outcome
 
 
 @pytest.fixture
@@ -152,3 +153,16 @@ def test_two_builds_in_two_folders_are_equal(bench, tmp_path_factory):
         hashes.append(verify.hashes_of(folder / "reports"))
     assert len(hashes[0]) == 4
     assert hashes[0] == hashes[1]
+
+
+@pytest.mark.parametrize(
+    ("options", "again"),
+    [((), []), (("-o", "out", "--format", "pdf,json"), ["-o", "out", "--format", "pdf,json"])],
+)
+def test_what_repeats_failed_designs_writes_the_same_reports(loopbook, bench, monkeypatch, options, again):
+    asked = {}
+    monkeypatch.setattr(apply, "apply", lambda *_, **told: asked.update(told) or Outcome(1))
+    record = bench.root / "record.csv"
+    record.write_text("t,u,y\n")
+    assert loopbook("design", str(record), *options).exit_code == 1
+    assert list(asked["repeat"]) == ["loopbook", "design", *again]
