@@ -1,6 +1,7 @@
 """A report is built again when something it depends on changed, and the line says what; else nothing is done."""
 
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -270,3 +271,15 @@ def test_nothing_slow_is_imported_where_nothing_is_to_be_done(bench):
     command = [sys.executable, "-c", check, "--root", str(bench.root), "build", "--format", "ipynb"]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.stdout == "1 notebook up to date\n[]\n", done.stderr
+
+
+def test_a_report_written_again_has_the_bytes_of_the_first(bench):
+    unsorted = "from IPython.display import JSON\nJSON({'b': 1, 'a': {'d': 2, 'c': 3}})"
+    bench.write("a/one", TITLE, unsorted)
+    as_given = lambda content, *about: json.dumps(content).encode()  # noqa: E731
+    report = bench.root / "reports" / "a" / "one.html"
+    bench.build(exporter=as_given)
+    first = report.read_bytes()
+    report.unlink()
+    bench.build(exporter=as_given)
+    assert report.read_bytes() == first and "exported again" in bench.said

@@ -166,6 +166,7 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
         content = renew_prose(content, plain)
         used, seconds = job.stamp.used, job.stamp.seconds
         prints, warnings = job.stamp.run, job.stamp.warnings
+    content = json.loads(dump(content))  # in one order, run now or read: a report shows data in the order it is in
     records = harvest.records(content, notebook.id)
     found = [r.data() for r in records]
     counts = dict(Counter(r["table"] for r in found))

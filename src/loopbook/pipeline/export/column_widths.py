@@ -6,7 +6,7 @@ estimate from the letters, good to some ten percent for text and a rough one for
 
 import re
 from dataclasses import dataclass
-from math import ceil, inf, sqrt
+from math import ceil, fsum, inf, sqrt
 
 from loopbook.pipeline.export.model import Anchor, Cell, Code, Grid, Inline, Math, Styled, Text, plain
 
@@ -60,7 +60,7 @@ def deciding(grid: Grid) -> Deciding:
             tight[cell.x] &= cell.head or unbroken(cell)
             if not cell.head:
                 squares[cell.x].append(_written(cell) ** 2)
-    weight = tuple(sqrt(sum(column) / max(len(column), 1)) for column in squares)
+    weight = tuple(sqrt(fsum(column) / max(len(column), 1)) for column in squares)
     return Deciding(tuple(map(_near, widest)), tuple(map(_near, solid)), tuple(tight), weight)
 
 
@@ -90,10 +90,10 @@ def height(grid: Grid) -> float:
     for cell, need in zip(grid.cells, needs, strict=True):
         if cell.colspan == 1:
             widths[cell.x] = max(widths[cell.x], need + SIZE)
-    share = min(1.0, TEXT_WIDTH / max(sum(widths), 1.0))
+    share = min(1.0, TEXT_WIDTH / max(fsum(widths), 1.0))
     lines = [1] * grid.rows
     for cell, need in zip(grid.cells, needs, strict=True):
-        room = sum(widths[cell.x : cell.x + cell.colspan]) * share - SIZE
+        room = fsum(widths[cell.x : cell.x + cell.colspan]) * share - SIZE
         lines[cell.y] = max(lines[cell.y], ceil(need / max(room, 4 * SIZE)))
     return sum(count * LINE + GAP for count in lines)
 
@@ -145,7 +145,8 @@ def _ems(nodes: list[Inline]) -> Range:
 
 
 def _letters(text: str) -> float:
-    return sum(_EM.get(letter, _USUAL) for letter in text)
+    """The estimate for a text; `fsum` gives the same on every Python, which `sum` does not."""
+    return fsum(_EM.get(letter, _USUAL) for letter in text)
 
 
 def _shape(cell: Cell) -> str:
