@@ -1,12 +1,16 @@
 """What a tuning tool shows: double-tank's Table 3, and how many of its cells a structure gives."""
 
+import math
+
 import pytest
 
 from loopbook.forms import PidParallel
 from loopbook.loop import Loop
+from loopbook.margins import phase_crossovers
 from loopbook.printed import load
 from loopbook.process import Process
-from loopbook.tuner_display import SHOWN, agreeing, displayed
+from loopbook.tuner_display import SHOWN, agreeing, displayed, structures
+from loopbook.tuning.ziegler_nichols import ultimate_method
 
 TANK = Process([1 / 8360], [35, 12, 1], 2)
 
@@ -30,3 +34,21 @@ def test_an_altered_parameter_is_noticed(digit):
     values = [tuned().P, tuned().I, tuned().D]
     values[digit] *= 1.1
     assert agreeing(displayed(Loop(TANK, PidParallel(*values, tuned().N))), printed("tuned")) <= 4
+
+
+def test_no_structure_with_the_four_good_cells_of_ziegler_and_nichols_gives_the_other_two():
+    """What the ledger says of the two cells that differ, and by how much."""
+    values, given = load("double-tank").values, printed("zn")
+    gain, w = 10 ** (float(values["gain-margin-of-plant"].printed) / 20), float(values["crossover-of-plant"].printed)
+    point = phase_crossovers(Loop(TANK, 1.0).transfer)[0]
+    settings = [ultimate_method(*data).pid for data in ((gain, 2 * math.pi / w), (point.gain, 2 * math.pi / point.w))]
+    poles = float(values["zn-filter"].printed), float(values["tuned-N"].printed)
+    tried = {name: displayed(Loop(TANK, pid)) for name, pid in structures(*settings, *poles).items()}
+    odd = {name: given[name] for name in ("settling", "overshoot")}
+    good = {name: digits for name, digits in given.items() if name not in odd}
+    fitting = [found for found in tried.values() if agreeing(found, good) == len(good) == 4]
+    assert len(tried) == 7 and fitting and all(agreeing(found, odd) == 0 for found in fitting)
+    first = next(iter(tried.values()))
+    assert first in fitting
+    assert round(first["settling"] - float(odd["settling"]), 2) == 0.06
+    assert round(first["overshoot"] - float(odd["overshoot"]), 2) == -0.08

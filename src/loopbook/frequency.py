@@ -11,9 +11,10 @@ import numpy as np
 
 from loopbook import horner
 from loopbook.process import Process
+from loopbook.refusal import Refusal
 
 
-class NoSuchFrequency(ValueError):
+class NoSuchFrequency(Refusal):
     """The phase never gets to the angle asked for."""
 
 

@@ -1,8 +1,11 @@
 """The six figures that a PID tuning tool shows of a loop, computed exactly."""
 
+from loopbook.forms import PidParallel, PidStandard
 from loopbook.ledger import rounds_to
 from loopbook.loop import Loop
 
+NEARLY_IDEAL = 1e5
+"""The pole [rad/s] of a derivative filter that stands for none."""
 SHOWN = ("rise", "settling", "overshoot", "peak", "gain-margin", "phase-margin")
 
 
@@ -24,3 +27,20 @@ def agreeing(found: dict[str, float], printed: dict[str, str]) -> int:
     2
     """
     return sum(rounds_to(found[name], digits) for name, digits in printed.items())
+
+
+def structures(as_read: PidStandard, exact: PidStandard, N: float, other: float) -> dict[str, PidParallel]:
+    """What P + I/s + D N/(1 + N/s) may mean to a tool: the regulators that its figures may belong to, by description.
+
+    as_read, exact: ideal settings from rounded and from exact data. N, other: two poles of the filter [rad/s].
+    """
+    zn, at_exact = as_read.parallel(), exact.parallel()
+    return {
+        f"on the error, pole $N = {N:g}$ rad/s": PidParallel(zn.P, zn.I, zn.D, N),
+        "the same, exact $K_0$ and $T_0$": PidParallel(at_exact.P, at_exact.I, at_exact.D, N),
+        "on the error, $N$ of Table 4": PidParallel(zn.P, zn.I, zn.D, other),
+        "on the error, $N = 10^5$ (nearly ideal)": PidParallel(zn.P, zn.I, zn.D, NEARLY_IDEAL),
+        f"on the error, $N = {N:g}$ as divisor of $T_d$": PidParallel(zn.P, zn.I, zn.D, N / as_read.Td),
+        f"on the measurement, pole $N = {N:g}$ rad/s": PidParallel(zn.P, zn.I, zn.D, N, c=0.0),
+        f"$P$ and $D$ on the measurement, $N = {N:g}$": PidParallel(zn.P, zn.I, zn.D, N, b=0.0, c=0.0),
+    }

@@ -9,7 +9,6 @@ from loopbook.forms import PidStandard
 from loopbook.tuning import RuleDoesNotApply, Tuning
 
 FILTER = 10.0  # N: the derivative's filter is Td/10
-ADVICE = ("use pid_combined (extrapolate=True computes them all the same)", "see AMIGO step and frequency")
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,7 @@ def candidates(model: Model) -> tuple[list[Candidate], list[Refused]]:
         try:
             tuning = tune()
         except (RuleDoesNotApply, NoSuchFrequency, DataError) as error:
-            refused.append(Refused(name, str(error).replace(*ADVICE)))
+            refused.append(Refused(name, error.reason))
             continue
         pid = tuning.pid
         ready = PidStandard(model.sign * pid.K, pid.Ti, pid.Td, b=pid.b, c=0.0, N=FILTER if pid.Td else None)

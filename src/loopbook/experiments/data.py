@@ -7,8 +7,10 @@ process gives.
 import math
 from dataclasses import dataclass
 
+from loopbook.refusal import Refusal
 
-class DataError(ValueError):
+
+class DataError(Refusal):
     """Numbers that no experiment on a process of this kind can give."""
 
 

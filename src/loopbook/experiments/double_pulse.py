@@ -10,8 +10,9 @@ from functools import cache
 import numpy as np
 
 from loopbook.experiments.data import StepData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_level, settling_horizon, smooth
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, settling_horizon, smooth
 from loopbook.identification.record import Record
+from loopbook.identification.steps import noise_level
 
 
 @cache

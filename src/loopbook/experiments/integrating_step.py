@@ -11,9 +11,10 @@ import math
 import numpy as np
 
 from loopbook.experiments.data import IntegratingStepData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_level
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant
 from loopbook.experiments.step import single_step
 from loopbook.identification.record import Record
+from loopbook.identification.steps import noise_level
 from loopbook.process import Process
 
 BENT = 0.02  # relative difference of the slopes in the two halves of the tail that still counts as one line
@@ -66,7 +67,8 @@ def estimate(record: Record) -> Estimate:
     if abs(halves[1] - halves[0]) > BENT * abs(slope) + blur or abs(slope) <= blur:
         raise ExperimentError(
             f"the end of the record is no rising line (slopes {halves[0]:.4g} and {halves[1]:.4g} per second): "
-            "the process settles (use step.estimate) or the record is too short"
+            "the record is too short, or the process settles: then take the tangent and 63 %",
+            "use step.estimate",
         )
     if slope / du < 0:
         raise ExperimentError("the gain is negative: record u with the other sign and turn it back later")

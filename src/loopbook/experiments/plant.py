@@ -13,13 +13,11 @@ from functools import cached_property
 import numpy as np
 
 from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
 from loopbook.process import Process
+from loopbook.refusal import Refusal
 
-__all__ = ["Estimate", "ExperimentError", "Plant", "noise_level", "settling_horizon", "smooth"]
 
-
-class ExperimentError(ValueError):
+class ExperimentError(Refusal):
     """An experiment that cannot tell what it was asked for; the message says why and what to do instead."""
 
 

@@ -12,8 +12,9 @@ from functools import cache
 import numpy as np
 
 from loopbook.experiments.data import FrequencyData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_level
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant
 from loopbook.identification.record import Record
+from loopbook.identification.steps import noise_level
 
 MOST_SWITCHINGS = 60
 ROUNDING = 1e-13

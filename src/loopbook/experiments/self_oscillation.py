@@ -9,8 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from loopbook.experiments.data import FrequencyData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_level, smooth
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, smooth
 from loopbook.identification.record import Record
+from loopbook.identification.steps import noise_level
 
 STEADY = 0.05  # what the amplitude may change from one period to the next
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from loopbook.experiments.data import StepData
 from loopbook.experiments.exact_response import ExactResponse
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant, noise_level, settling_horizon, smooth
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, settling_horizon, smooth
 from loopbook.identification.record import Record
+from loopbook.identification.steps import noise_level
 from loopbook.process import Process
 
 REACHED = 1 - math.exp(-1)
@@ -100,7 +101,8 @@ def _require_steady(record: Record, start: int, before: float, after: float) -> 
     if drift > STILL * abs(after - before) + 4 * noise / math.sqrt(len(y)):
         raise ExperimentError(
             f"the output has no steady state: it still moves by {drift / abs(after - before):.0%} of the change over "
-            "the last fifth of the record; record longer, or use integrating_step if the process integrates"
+            "the last fifth of the record; record longer, or take the final tangent if the process integrates",
+            "use integrating_step",
         )
 
 

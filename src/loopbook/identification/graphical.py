@@ -13,9 +13,6 @@ from loopbook.experiments.plant import smooth
 from loopbook.identification.record import Record
 from loopbook.identification.steps import find_steps
 
-FUNCTIONS = {"use integrating_step": "take the final tangent", "use step.estimate": "take the tangent and 63 %"}
-"""What a function's advice is called where its reader sees rules, not functions."""
-
 
 @dataclass(frozen=True)
 class Reading:
@@ -97,8 +94,5 @@ def readings(record: Record) -> list[Reading]:
             values = {name: sign * v if name in ("Kp", "Kv") else v for name, v in read().items()}
             found.append(Reading(rule, source, values))
         except (ExperimentError, DataError) as error:
-            reason = str(error)
-            for function, name in FUNCTIONS.items():
-                reason = reason.replace(function, name)
-            found.append(Reading(rule, source, {}, reason))
+            found.append(Reading(rule, source, {}, error.reason))
     return found

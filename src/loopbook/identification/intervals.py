@@ -11,12 +11,13 @@ small.
 
 import numpy as np
 
-MOST = 99.0  # what the correlation may cost: beyond it the residuals are no noise but a poor model
+CLOSEST = 0.98  # the correlation beyond which residuals are no noise but a poor model
+MOST = (1 + CLOSEST) / (1 - CLOSEST)  # what the correlation may cost
 
 
 def correlation(residuals: np.ndarray) -> float:
-    """Of neighbouring residuals, from 0 to 0.98."""
-    return float(np.clip(residuals[1:] @ residuals[:-1] / max(residuals @ residuals, 1e-300), 0.0, 0.98))
+    """Of neighbouring residuals, from 0 to `CLOSEST`."""
+    return float(np.clip(residuals[1:] @ residuals[:-1] / max(residuals @ residuals, 1e-300), 0.0, CLOSEST))
 
 
 def cost_of_correlation(residuals: np.ndarray) -> float:

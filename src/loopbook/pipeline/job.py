@@ -166,7 +166,8 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
         content = renew_prose(content, plain)
         used, seconds = job.stamp.used, job.stamp.seconds
         prints, warnings = job.stamp.run, job.stamp.warnings
-    content = json.loads(dump(content))  # in one order, run now or read: a report shows data in the order it is in
+    stored = dump(content)
+    content = json.loads(stored)  # in one order, run now or read: a report shows data in the order it is in
     records = harvest.records(content, notebook.id)
     found = [r.data() for r in records]
     counts = dict(Counter(r["table"] for r in found))
@@ -185,7 +186,7 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
             prints_now = fingerprint.of_export(source, results, wanted.engine, format)
             exports[str(path)] = {"prints": prints_now, "file": stamps.print_of(path)}
     if stamped:
-        atomic.write(executed, dump(content))
+        atomic.write(executed, stored)
         stamps.save_records(project, notebook, found)
         digest = fingerprint.digest(found)
         stamp = stamps.Stamp(prints, used, results, source.title, seconds, counts, digest, warnings, exports)

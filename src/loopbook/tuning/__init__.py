@@ -9,11 +9,13 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
+from loopbook.refusal import Refusal
+
 if TYPE_CHECKING:
     from loopbook.forms import PidStandard
 
 
-class RuleDoesNotApply(ValueError):
+class RuleDoesNotApply(Refusal):
     """A tuning rule was asked for a process it does not cover; the message names the rule that does."""
 
 

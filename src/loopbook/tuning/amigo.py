@@ -228,10 +228,18 @@ def _from_frequency(name: str, data: Any, Kp: float, extrapolate: bool) -> Amigo
             "dead time; check K180 and Kp"
         )
     if kappa <= least and not extrapolate:
-        better = "pid_combined" if kappa else "pi_step_integrating, pid_step_integrating or pid_combined_integrating"
+        better, functions = (
+            ("step and frequency together", "pid_combined")
+            if kappa
+            else (
+                "the rules for integrating processes",
+                "pi_step_integrating, pid_step_integrating, pid_combined_integrating",
+            )
+        )
         raise RuleDoesNotApply(
             f"{name}: kappa = K180/Kp = {kappa:.4g} <= {least:g}: the process is dominated by its lag and these "
-            f"settings are not appropriate; use {better} (extrapolate=True computes them all the same)"
+            f"settings are not appropriate; take {better}",
+            f"use {functions}; extrapolate=True computes them all the same",
         )
     return _result(name, (data.K180, data.T180, kappa), kappa=kappa)
 

@@ -16,8 +16,8 @@ SHORT = 12
 """Characters up to which a cell is not broken into lines."""
 VERDICT = 24
 """The same for a cell with a mark: a verdict, not a sentence with a verdict's colour."""
-TEXT_WIDTH = 453
-"""Points between the margins of a page."""
+TEXT_WIDTH, TEXT_HEIGHT = (21 - 2 * 2.5) * 72 / 2.54, (29.7 - 2.7 - 2.5) * 72 / 2.54
+"""Points between the margins of a page: A4 in centimetres, less the margins of ``report.typ``."""
 SIZE = 9.5
 """Points: the size of the letters in a table, and what a cell has beside its text, left and right together."""
 LINE, GAP = 12.0, 8.0

@@ -9,6 +9,8 @@ hole in it.
 import os
 import re
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from nbconvert.exporters.pdf import LatexFailed, PDFExporter
@@ -18,7 +20,7 @@ from traitlets.config import Config
 from loopbook.pipeline.export.errors import ExportError, Problem
 from loopbook.pipeline.export.latex_outputs import DrawingsToPdf, TablesToMarkdown
 from loopbook.pipeline.export.pdf import TEMPLATES
-from loopbook.pipeline.export.typst_engine import EPOCH
+from loopbook.pipeline.surroundings import EPOCH
 
 OVERFULL = 10.0
 """Points by which a line may run into the margin before it is an error."""
@@ -104,14 +106,28 @@ class LatexPdfExporter(PDFExporter):
         return pdf, resources
 
     def run_latex(self, filename: str, raise_on_failure: Any = LatexFailed) -> bool:
-        """Run TeX, with one date for all reports, then read its log."""
-        os.environ["SOURCE_DATE_EPOCH"] = str(EPOCH)
-        done = super().run_latex(filename, raise_on_failure)
+        """Run TeX, then read its log."""
+        with _dated():
+            done = super().run_latex(filename, raise_on_failure)
         log = os.path.splitext(filename)[0] + ".log"
         if os.path.isfile(log):
             with open(log, encoding="utf-8", errors="replace") as file:
                 self.lost = read_log(file.read())
         return done
+
+
+@contextmanager
+def _dated() -> Iterator[None]:
+    """TeX puts one date into all reports: nbconvert gives it this process's environment."""
+    before = os.environ.get("SOURCE_DATE_EPOCH")
+    os.environ["SOURCE_DATE_EPOCH"] = EPOCH
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["SOURCE_DATE_EPOCH"]
+        else:
+            os.environ["SOURCE_DATE_EPOCH"] = before
 
 
 def require_tex(name: str, command: str) -> None:

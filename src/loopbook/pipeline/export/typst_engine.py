@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from loopbook.pipeline.surroundings import EPOCH
+
 STANDARDS = ("a-2a", "ua-1")
-EPOCH = 1_000_000_000
-"""The creation time written into every PDF, seconds since 1970: a constant, so that equal input gives equal bytes."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
             compiler = typst.Compiler(
                 str(main), root=folder, font_paths=fonts(), package_path=nowhere, package_cache_path=nowhere
             )
-            pdf, warnings = compiler.compile_with_warnings(timestamp=EPOCH, pdf_standards=list(STANDARDS))
+            pdf, warnings = compiler.compile_with_warnings(timestamp=int(EPOCH), pdf_standards=list(STANDARDS))
         except typst.TypstError as error:
             raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
     if warnings:
@@ -93,7 +93,7 @@ def picture_pdf(svg: bytes) -> bytes:
         (Path(folder) / "main.typ").write_bytes(page)
         try:
             compiler = typst.Compiler(str(Path(folder) / "main.typ"), root=folder, font_paths=fonts())
-            return compiler.compile(timestamp=EPOCH)
+            return compiler.compile(timestamp=int(EPOCH))
         except typst.TypstError as error:
             raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
 

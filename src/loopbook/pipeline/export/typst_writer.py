@@ -10,7 +10,7 @@ import struct
 from dataclasses import dataclass, field
 
 from loopbook.pipeline.export.breaking import pieces
-from loopbook.pipeline.export.column_widths import TEXT_WIDTH, deciding, height, unbroken, words
+from loopbook.pipeline.export.column_widths import TEXT_HEIGHT, TEXT_WIDTH, deciding, height, unbroken, words
 from loopbook.pipeline.export.highlighting import lines
 from loopbook.pipeline.export.maths import as_text, as_typst
 from loopbook.pipeline.export.model import (
@@ -57,8 +57,8 @@ IMPORT = '#import "report.typ": ' + ", ".join(
 """Only what is called: a name such as accent would hide the function of that name in mathematics."""
 LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
-BREAKABLE_FROM = 208
-"""Points of height, by estimate, from which on a table may go on over pages: three tenths of a page."""
+BREAKABLE_FROM = 0.3 * TEXT_HEIGHT
+"""Points of height, by estimate, from which on a table may go on over pages."""
 _UNBROKEN = re.compile(r"\S{60}")
 
 
