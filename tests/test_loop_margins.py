@@ -248,3 +248,10 @@ def test_the_decay_rate_is_counted_on_both_sides(lags, delay, share, Ti):
     for factor in (0.999, 1.001):
         there = shifted(loop, rate * factor)
         assert (walton_marshall(there.num, there.den, delay) > 0) == (factor > 1)
+
+
+def test_the_two_sensitivities_add_up_to_one():
+    loop, s = Loop(TANK, TUNED), 1j * np.geomspace(1e-3, 10, 50)
+    assert loop.sensitivity(s) + loop.complementary_sensitivity(s) == pytest.approx(1.0, abs=1e-12)
+    peak = complementary_peak(loop.transfer)
+    assert abs(loop.complementary_sensitivity(1j * peak.w)) == pytest.approx(peak.value, rel=1e-9)

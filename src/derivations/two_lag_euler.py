@@ -57,10 +57,3 @@ def longest_step() -> Expr:
     T = sp.Symbol("T", positive=True)
     (limit,) = [x for x in sp.solve(sp.Eq((1 - h / T) ** 2, 1), h) if x != 0]
     return 2 * sp.Min(T1, T2) if limit == 2 * T else sp.nan
-
-
-@cache
-def step_error() -> Expr:
-    """Largest relative difference of one Euler step from the exact decay exp(-h/T), to second order: (h/T)^2/2."""
-    T = sp.Symbol("T", positive=True)
-    return sp.series(sp.exp(-h / T) - (1 - h / T), h, 0, 3).removeO()

@@ -175,12 +175,6 @@ class StepResponse:
         final = self.final[0]
         return exact(self.y, final, min(self.horizon, self.y.end), breakpoints=self.breakpoints)
 
-    def sampled_metrics(self, times: Any) -> Any:
-        """The same in MATLAB's convention on samples of y at `times` [s]: see `loopbook.step_metrics`."""
-        from loopbook.step_metrics import sampled
-
-        return sampled(self.y(times), times)
-
     @cached_property
     def error(self) -> Signal:
         """What regulation should bring to zero: 1 - y for a reference step, -y for the others."""

@@ -174,11 +174,6 @@ class Process:
         """The roots of num, complex."""
         return np.roots(self.num).astype(complex)
 
-    @property
-    def high_frequency_gain(self) -> float:
-        """The value of num/den at infinite s: not zero where relative_degree is 0."""
-        return self.num[0] / self.den[0] if self.relative_degree == 0 else 0.0
-
     def step(self, times: Any, amplitude: float = 1.0) -> np.ndarray:
         """The response to a step of the input at t = 0 from rest, exact to rounding, at any `times` [s].
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from loopbook.pipeline.export.errors import CannotShow, Problem
-from loopbook.pipeline.export.model import Anchor, Block, Break, Display, Figure, Inline, Math, Paragraph, Picture, Text
+from loopbook.pipeline.export.model import Block, Break, Display, Figure, Inline, Math, Paragraph, Picture, Text
 
 _MATH = re.compile(
     r"(?<!\\)\$\$(?P<display>.+?)(?<!\\)\$\$"
@@ -130,7 +130,3 @@ def anchor_of(text: str) -> str:
     'Two-tanks,-one-delay'
     """
     return text.strip().replace(" ", "-")
-
-
-def is_blank(nodes: list[Inline]) -> bool:
-    return all(isinstance(n, Break | Anchor) or (isinstance(n, Text) and not n.text.strip()) for n in nodes)

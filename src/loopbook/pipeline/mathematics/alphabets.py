@@ -25,8 +25,6 @@ _GREEK_EXTRA = "∂ϵϑϰϕϱϖ"  # follow ω in every Greek block, in this orde
 _BOLD = {"italic": "bold-italic", "normal": "bold", "script": "bold-script", "roundhand": "bold-script"}
 _BOLD |= {"fraktur": "bold-fraktur", "sans": "bold-sans"}
 
-VARIANTS = frozenset(_BLOCKS)
-
 
 def combine(outer: str, inner: str) -> str:
     """The alphabet that results from one font command inside another: only bold adds to another alphabet.

@@ -37,7 +37,6 @@ _BRACES = {
     "⏝": "underparen",
 }
 _CANCEL = {"cancel": "", "bcancel": ", inverted: #true", "xcancel": ", cross: #true", "sout": ", angle: #90deg"}
-_VARIANT = {"bold": "bold", "italic": "italic", "mono": "mono", "sans": "sans"}
 
 
 _INSIDE_FRACTION = {"display": "text", "text": "script", "script": "script", "sscript": "script"}
