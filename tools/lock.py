@@ -1,7 +1,7 @@
 """Resolve the locks anew for CPython 3.11 to 3.13: `make lock` [ONLY="environment cluster"] [UPGRADE=1].
 
-environment.txt holds what `make` and `make test` need, locks/*.txt what single targets need beside it (at the versions
-that environment.txt has), tools/uv.txt the installer. What is locked stays at its version until UPGRADE=1, so that a new
+environment.txt holds what `make` and `make test` need, locks/*.txt what single targets need beside it, at the versions
+that environment.txt has; tools/uv.txt the installer. What is locked stays at its version until UPGRADE=1: a new
 dependency moves nothing else.
 """
 
