@@ -43,7 +43,7 @@ doctor: ## say what of the environment is as it should be; changes nothing
 	@$(PYTHON) tools/doctor.py $(VENV)
 
 notebooks: $(READY) ## open JupyterLab on the project's kernel
-	@MATPLOTLIBRC="$(CURDIR)/src/loopbook/pipeline/matplotlibrc" $(BIN)/jupyter lab notebooks
+	@MATPLOTLIBRC="$(CURDIR)/src/notebook_reports/run/matplotlibrc" $(BIN)/jupyter lab notebooks
 
 design: $(READY) ## a regulator for your own process: make design DATA=record.csv [REPORT=report.pdf]
 	@test -n "$(DATA)" || { echo "make design needs a record or a model: make design DATA=record.csv"; exit 2; }

@@ -14,8 +14,8 @@ import threading
 import time
 from pathlib import Path
 
-from loopbook.pipeline.project import Project, project_at
-from loopbook.pipeline.verify import copy_sources
+from notebook_reports.build.verify import copy_sources
+from notebook_reports.project.project import Project, project_at
 
 ROOT = Path(__file__).parents[1]
 BIN = Path(sys.executable).parent
@@ -121,8 +121,8 @@ def _exports(project: Project) -> list[Row]:
     """The export of each executed notebook in a running process, after one to warm up."""
     import nbformat
 
-    from loopbook.pipeline import stamps
-    from loopbook.pipeline.export import ExportError, export
+    from notebook_reports.export.exporters.choose import ExportError, export
+    from notebook_reports.memory import stamps
 
     nodes = []
     for notebook in project.notebooks():

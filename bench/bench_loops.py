@@ -12,9 +12,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from loopbook.forms import PidParallel
-from loopbook.loop import Loop
-from loopbook.process import Process
+from loopbook.controllers.pid_forms import PidParallel
+from loopbook.loop.continuous import Loop
+from loopbook.process.transfer_function import Process
 
 POINTS, HORIZON, GOAL = 10_000, 40.0, 1e-6
 ORDERS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 32)

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 
-from loopbook.batch import batch
+from loopbook.documents.pid_report.batch.processes import batch
 from loopbook.experiments import combination
 from loopbook.experiments.data import FrequencyData, StepData
 from loopbook.tuning import migo

@@ -10,11 +10,11 @@ import tempfile
 import time
 from pathlib import Path
 
-from loopbook.pipeline.build import build
-from loopbook.pipeline.console import Console
-from loopbook.pipeline.job import Wanted
-from loopbook.pipeline.project import project_at
-from loopbook.pipeline.warm import PLAIN, possible
+from notebook_reports.build.build import build
+from notebook_reports.build.job import Wanted
+from notebook_reports.project.console import Console
+from notebook_reports.project.project import project_at
+from notebook_reports.run.warm import PLAIN, possible
 
 NUMBER = int(os.environ.get("LOOPBOOK_BENCH_KERNELS", "500"))
 ROUNDS = int(os.environ.get("LOOPBOOK_BENCH_ROUNDS", "3"))

@@ -12,8 +12,8 @@ from statistics import median
 import sympy as sp
 from sympy.core.cache import clear_cache
 
-from derivations.delay_polynomials import Z
-from derivations.pole_placement import integrators, place, solve_system
+from derivations.algebra.delay_polynomials import Z
+from derivations.pole_placement.diophantine import integrators, place, solve_system
 
 
 def _median(work: Callable, times: int) -> tuple[float, object]:

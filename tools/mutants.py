@@ -79,7 +79,7 @@ def value_mutants(root: Path) -> list[Mutant]:
     with (root / "reports" / "ledger.csv").open(encoding="utf-8", newline="") as file:
         notebooks = {(row["document"], row["id"]): row["notebook"] for row in csv.DictReader(file)}
     mutants = []
-    for path in sorted((root / "src/loopbook/printed").glob("*/*.toml")):
+    for path in sorted((root / "src/loopbook/documents").glob("*/printed/*.toml")):
         text = path.read_text(encoding="utf-8")
         document = path.parent.name.replace("_", "-")
         entries = [m.start() for m in re.finditer(r'(?m)(?<![\w-])id\s*=\s*"', text)] + [len(text)]

@@ -5,138 +5,8 @@ from pathlib import Path
 
 import click
 
-from loopbook import __version__
-from loopbook.pipeline.project import EnvironmentProblem, Project, UsageError, find_project, project_at
-
-HELP = {"help_option_names": ["-h", "--help"]}
-
-
-class Command(click.Group):
-    """Turns what a person can mend into one line and an exit code: 2 usage and parameters, 3 environment."""
-
-    def invoke(self, ctx: click.Context):
-        try:
-            return super().invoke(ctx)
-        except UsageError as error:
-            click.echo(f"loopbook: {error}", err=True)
-            ctx.exit(2)
-        except EnvironmentProblem as error:
-            click.echo(f"loopbook: {error}", err=True)
-            ctx.exit(3)
-        except KeyboardInterrupt:
-            click.echo("interrupted", err=True)
-            ctx.exit(130)
-
-
-@click.group(cls=Command, context_settings=HELP)
-@click.version_option(__version__, prog_name="loopbook")
-@click.option("--root", type=click.Path(exists=True, file_okay=False, path_type=Path), help="The project's folder.")
-@click.pass_context
-def main(ctx: click.Context, root: Path | None) -> None:
-    """Run the notebooks, write their reports, keep the ledger of what the documents print.
-
-    Exit codes: 0 all good, 1 a notebook or a check failed, 2 usage or parameters, 3 the environment.
-    """
-    ctx.obj = project_at(root) if root else find_project()
-
-
-@main.command()
-@click.argument("notebooks", nargs=-1, metavar="[NOTEBOOK]...")
-@click.option("-p", "--parameter", "parameters", type=(str, str), multiple=True, metavar="NAME VALUE",
-              help="A parameter of the notebook; the report goes to reports/custom or -o DIR.")  # fmt: skip
-@click.option("-j", "--jobs", type=click.IntRange(min=1), help="Kernels at a time; default: one per core.")
-@click.option("--format", "formats", default="pdf,html,ipynb", show_default=True, help="What to write.")
-@click.option("--engine", type=click.Choice(["typst", "latex"]), default="typst", show_default=True,
-              help="What makes the PDF; latex needs a TeX installation.")  # fmt: skip
-@click.option("-o", "--output", type=click.Path(file_okay=False, path_type=Path), metavar="DIR",
-              help="Where the reports go; the ledger's files are then left alone.")  # fmt: skip
-@click.option("--force", is_flag=True, help="Run everything, whether it changed or not.")
-@click.option("--accept", is_flag=True, help="Write the ledger's files though a verdict or a printed digit moved.")
-@click.option("--frozen", is_flag=True, help="Fail where the ledger's files would change at all (for CI).")
-@click.option("--timeout", type=click.FloatRange(min=1), default=600.0, show_default=True, metavar="S",
-              help="Seconds that one cell may take.")  # fmt: skip
-@click.option("--watch", is_flag=True, help="Build again whenever a file changes, until Ctrl-C.")
-@click.pass_obj
-def build(
-    project: Project, notebooks, parameters, jobs, formats, engine, output, force, accept, frozen, timeout, watch
-):
-    """Run notebooks and write their reports, where something they depend on changed.
-
-    NOTEBOOK is double_tank/03_pole_placement, double_tank/03, double_tank or a path; default: all.
-    """
-    from loopbook.pipeline.build import build as run_build
-    from loopbook.pipeline.job import Wanted
-
-    chosen = tuple(dict.fromkeys(f.strip() for f in formats.split(",") if f.strip()))
-    wanted = Wanted(chosen, engine, output.resolve() if output else None, force, timeout)
-    options = {"jobs": jobs, "accept": accept, "frozen": frozen}
-    if watch:
-        from loopbook.pipeline.watch import watch as run_watch
-
-        run_watch(project, notebooks, parameters, wanted, options)
-        return
-    sys.exit(run_build(project, notebooks, parameters, wanted, **options).code)
-
-
-@main.command("list")
-@click.pass_obj
-def list_notebooks(project: Project) -> None:
-    """The notebooks, their titles and parameters."""
-    from loopbook.pipeline.parameters import read_parameters
-    from loopbook.pipeline.source import read_source
-
-    notebooks = project.notebooks()
-    width = max(len(n.id) for n in notebooks)
-    for notebook in notebooks:
-        source = read_source(notebook.path)
-        click.echo(f"{notebook.id:{width}}  {source.title}")
-        for parameter in read_parameters(source).values():
-            unit = f"  # {parameter.comment}" if parameter.comment else ""
-            click.echo(f"{'':{width}}    -p {parameter.name} {parameter.default!r}{unit}")
-
-
-@main.command()
-@click.argument("document", required=False, default="")
-@click.argument("place", required=False, default="")
-@click.option("--format", "form", type=click.Choice(["text", "json", "csv", "md"]), default="text", show_default=True)
-@click.pass_obj
-def check(project: Project, document: str, place: str, form: str) -> None:
-    """The ledger: what holds, and every row that does not.
-
-    DOCUMENT is pid-report, pid-article or double-tank, PLACE as the document names it: "Table 5.2".
-    """
-    from loopbook.pipeline import check as ledger
-
-    chosen = ledger.read_ledger(project).of(document, place)
-    forms = {"json": ledger.as_json, "csv": ledger.as_csv, "md": ledger.as_markdown}
-    click.echo(forms[form](chosen) if form in forms else ledger.as_text(chosen, whole=bool(place)))
-    failed = (project.cache / "failures.txt").exists()
-    if failed:
-        click.echo("\nthe last build failed; `loopbook build` says where", err=True)
-    sys.exit(1 if failed or chosen.failing else 0)
-
-
-@main.command()
-@click.pass_obj
-def doctor(project: Project) -> None:
-    """Is the environment as it should be?"""
-    from loopbook.pipeline.doctor import examine
-
-    worst = 0
-    for verdict, question, found in examine(project):
-        click.echo(f"{verdict:5} {question:22} {found}")
-        worst = 3 if verdict == "FAIL" else worst
-    sys.exit(worst)
-
-
-@main.command()
-@click.argument("notebooks", nargs=-1, metavar="[NOTEBOOK]...")
-@click.pass_obj
-def verify(project: Project, notebooks: tuple[str, ...]) -> None:
-    """Build twice, in two folders, with one kernel and with four, and compare every byte."""
-    from loopbook.pipeline.verify import verify as run_verify
-
-    sys.exit(run_verify(project, notebooks))
+from notebook_reports.cli import main
+from notebook_reports.project.project import Project
 
 
 @main.command()
@@ -158,7 +28,7 @@ def design(project: Project, data, report, aim, time_column, input_column, outpu
     Many records at once: loopbook design *.csv -o reports/. The designs run in parallel; a record that no model can be
     made of does not stop the others, is named at the end, and makes the exit code 1.
     """
-    from loopbook.pipeline.apply import apply, items
+    from notebook_reports.build.apply import apply, items
 
     given = {"aim": aim, "time": time_column, "input": input_column, "output": output_column}
     chosen = [f.strip() for f in formats.split(",") if f.strip()]

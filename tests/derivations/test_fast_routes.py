@@ -4,20 +4,14 @@ import pytest
 import sympy
 from sympy import Function, Rational, Symbol, dsolve, limit, simplify, solve, symbols
 
-from derivations import (
-    amigo,
-    exact_filters,
-    gain_scheduling,
-    offset,
-    pid_by_angles,
-    rc_filter,
-    robustness,
-    two_lags,
-    two_point_fit,
-)
-from derivations.differences import BACKWARD, FORWARD, TUSTIN, at, discretise, h, t, update
-from derivations.pid_laws import derivative, filtered_derivative, integral_tracking, rate
-from derivations.rc_filter import R, Tf, filter_law
+from derivations.algebra.differences import BACKWARD, FORWARD, TUSTIN, at, discretise, h, t, update
+from derivations.experiments import two_lags, two_point_fit
+from derivations.loop import robustness
+from derivations.pid import exact_filters, offset, rc_filter
+from derivations.pid.pid_laws import derivative, filtered_derivative, integral_tracking, rate
+from derivations.pid.rc_filter import R, Tf, filter_law
+from derivations.plants import gain_scheduling
+from derivations.tuning import amigo, pid_by_angles
 
 a, b, start = symbols("a b start")
 

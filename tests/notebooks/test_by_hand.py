@@ -7,11 +7,11 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-from loopbook.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
-from loopbook.pipeline.harvest import records
-from loopbook.pipeline.project import project_at
-from loopbook.pipeline.run import run
-from loopbook.pipeline.source import read_source
+from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
+from notebook_reports.ledger.harvest import records
+from notebook_reports.project.project import project_at
+from notebook_reports.project.source import read_source
+from notebook_reports.run.run import run
 
 PROJECT = project_at(Path(__file__).parents[2])
 

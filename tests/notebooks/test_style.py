@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from clear_outputs import clear, unclean
 
-from loopbook.pipeline.parameters import ParameterError, read_parameters
-from loopbook.pipeline.source import Source, read_source
+from notebook_reports.project.parameters import ParameterError, read_parameters
+from notebook_reports.project.source import Source, read_source
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(p for p in FOLDER.rglob("*.ipynb") if ".ipynb_checkpoints" not in p.parts)
@@ -175,7 +175,7 @@ def sample(tmp_path, *cells):
 
 GOOD = [
     ("# Title\n\nAn opening paragraph that says what is shown here and why it matters to a reader of the notebook.",),
-    ("import math\nfrom loopbook.ledger import Document",),
+    ("import math\nfrom notebook_reports.ledger.document import Document",),
     ("q: float = 0.5  # pole, [0, 1)", "parameters"),
     ("> The claim, in a sentence or two, with enough words to carry the few lines of code below it.",),
     ("doc = Document('double-tank')\ndoc.check('Table 5')",),

@@ -1,11 +1,10 @@
-"""Controllers that run sample by sample: the discrete PID, the document's programs, on-off control.
+"""Controllers that run sample by sample: the discrete PID, on-off control.
 
 All arithmetic is + - * / and comparison, so that floats and fractions both run.
 """
 
 from loopbook.controllers.on_off import OnOff
 from loopbook.controllers.pid import BadMeasurement, BadMeasurementWarning, Pid
-from loopbook.controllers.programs import ProgramController
 from loopbook.controllers.settings import ANTI_WINDUP, PidSettings, SettingError
 
 __all__ = [
@@ -15,6 +14,5 @@ __all__ = [
     "OnOff",
     "Pid",
     "PidSettings",
-    "ProgramController",
     "SettingError",
 ]

@@ -1,7 +1,8 @@
 """Python functions written from the derived expressions: gains, one step, and a loop over arrays.
 
-The formulas come from `derivations.pid_code.weighted` (figure 4.13 of pid-report with a weight c on the derivative)
-and `derivations.bumpless`; this module adds limits, the rules of anti-windup and the order of execution.
+The formulas come from `derivations.programs.pid_code.weighted` (figure 4.13 of pid-report with a weight c on the
+derivative) and `derivations.programs.bumpless`; this module adds limits, the rules of anti-windup and the order of
+execution.
 """
 
 from collections.abc import Callable, Mapping
@@ -34,7 +35,7 @@ def gains() -> Callable:
 
     Ti = None gives p_5 = p_6 = 0: without integral action I is a constant offset.
     """
-    from derivations import pid_code as code
+    from derivations.programs import pid_code as code
 
     values = {s.name: v for s, v in code.weighted().gain_values().items()} | {"p_24": code.derivative_gain()}
     lines = ["def gains(K, T_i, T_d, T_f, b, c, h, T_t):"]
@@ -46,7 +47,7 @@ def gains() -> Callable:
 @cache
 def expressions() -> dict[str, Any]:
     """v, the new x, the new I with tracking, and the new I without: SymPy expressions of the weighted program."""
-    from derivations import pid_code as code
+    from derivations.programs import pid_code as code
 
     assigned = {a.target.name: a.value for a in code.weighted().before + code.weighted().after}
     tracked = assigned["I"]
@@ -127,8 +128,8 @@ def run(rule: str, rate: bool) -> Callable:
 
 @cache
 def bumpless_change() -> Callable:
-    """New x and I after a change of settings, from `derivations.bumpless.keep_both_parts`."""
-    from derivations.bumpless import keep_both_parts
+    """New x and I after a change of settings, from `derivations.programs.bumpless.keep_both_parts`."""
+    from derivations.programs.bumpless import keep_both_parts
 
     new = {s.name: value for s, value in keep_both_parts().items()}
     arguments = "I, x, y, y_sp, K_old, b_old, c_old, p_24old, K_new, b_new, c_new, p_24new"
@@ -139,7 +140,7 @@ def bumpless_change() -> Callable:
 @cache
 def program_pass(figure: str) -> Callable:
     """One pass of a printed program: f(values) -> values, with the names of the settings and variables as keys."""
-    from derivations import pid_code as code
+    from derivations.programs import pid_code as code
 
     program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
     lines = ["def program_pass(known):"]
@@ -155,7 +156,7 @@ def program_pass(figure: str) -> Callable:
 @cache
 def program_gains(figure: str) -> Callable:
     """(K, Ti, Td, Tf, b, h, Tt) -> gains by name for a printed program."""
-    from derivations import pid_code as code
+    from derivations.programs import pid_code as code
 
     program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
     pairs = ", ".join(f"{s.name!r}: {_text(value)}" for s, value in program.gain_values().items())

@@ -124,9 +124,9 @@ class PidSettings:
 
     @classmethod
     def of(cls, form: Any, *, h: Any, **more: Any) -> "PidSettings":
-        """From a named PID form of `loopbook.forms` (standard, parallel or series), with the sampling interval h.
+        """From a PID form of `loopbook.controllers.pid_forms` (standard, parallel, series) and the sampling interval h.
 
-        >>> from loopbook.forms import PidStandard
+        >>> from loopbook.controllers.pid_forms import PidStandard
         >>> PidSettings.of(PidStandard(2.0, 4.0, 1.0, N=10), h=0.1).Tf
         0.1
         """

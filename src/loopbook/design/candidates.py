@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from loopbook.controllers.pid_forms import PidStandard
 from loopbook.design.model import Model
-from loopbook.forms import PidStandard
-from loopbook.tuning import RuleDoesNotApply, Tuning
+from loopbook.tuning.rule import RuleDoesNotApply, Tuning
 
 FILTER = 10.0  # N: the derivative's filter is Td/10
 
@@ -99,7 +99,7 @@ def _pulse(model: Model):
 def candidates(model: Model) -> tuple[list[Candidate], list[Refused]]:
     """Settings of every rule for one model, in the order of `rules`, and the rules that refused it."""
     from loopbook.experiments.data import DataError
-    from loopbook.frequency import NoSuchFrequency
+    from loopbook.process.frequency_response import NoSuchFrequency
 
     accepted, refused = [], []
     for name, tune in rules(model).items():

@@ -7,8 +7,8 @@ import numpy as np
 
 from loopbook.design.candidates import Candidate
 from loopbook.design.model import Model
-from loopbook.loop import Loop, StepResponse
-from loopbook.signals import Signal
+from loopbook.loop.continuous import Loop, StepResponse
+from loopbook.numerics.signals import Signal
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Robustness:
 
 def robustness(model: Model, candidate: Candidate, number: int = 20, seed: int = 0) -> Robustness:
     """Close the loop on models drawn from the confidence region."""
-    from loopbook.sensitivity_peaks import sensitivity_peak
+    from loopbook.loop.sensitivity_peaks import sensitivity_peak
 
     drawn = model.variations(number, seed)
     loops = [Loop(m.process, candidate.pid) for m in drawn]

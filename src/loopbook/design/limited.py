@@ -5,7 +5,7 @@ import numpy as np
 from loopbook.controllers.pid import Pid
 from loopbook.design.model import Model
 from loopbook.design.program import SampledProgram
-from loopbook.simulation import Simulation, simulate
+from loopbook.response.simulation import Simulation, simulate
 
 SAMPLES = 20000
 

@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData, TwoLagData
     from loopbook.identification.choice import Identified
-    from loopbook.process import Process
+    from loopbook.process.transfer_function import Process
 
 
 class ModelError(ValueError):
@@ -55,7 +55,7 @@ class Model:
     @cached_property
     def process(self) -> "Process":
         """The model as a Process."""
-        from loopbook.process import Process
+        from loopbook.process.transfer_function import Process
 
         den = np.array([1.0, 0.0]) if self.integrating else np.array([1.0])
         for T in self.lags:
@@ -64,7 +64,7 @@ class Model:
 
     def latex(self) -> str:
         """The transfer function as LaTeX, four digits."""
-        from loopbook.display import number
+        from notebook_reports.display import number
 
         def text(value: float) -> str:
             digits, e, power = number(value, 4).replace("−", "-").partition("e")
@@ -97,7 +97,7 @@ class Model:
     def frequency_data(self) -> "FrequencyData":
         """K180 and T180: measured, or of the model. Raises NoSuchFrequency where the model never lags so far."""
         from loopbook.experiments.data import FrequencyData
-        from loopbook.frequency import ultimate
+        from loopbook.process.frequency_response import ultimate
 
         if self.frequency is not None:
             return self.frequency

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from loopbook.controllers.rst import PlacementError, Rst, with_zeros
 from loopbook.design.model import Model
-from loopbook.display import Table, number
-from loopbook.rst import PlacementError, Rst, place, with_zeros
-from loopbook.sampled_loop import SampledLoop, SampledMargins
+from loopbook.loop.sampled import SampledLoop, SampledMargins
+from loopbook.pole_placement.numeric import place
+from notebook_reports.display import Table, number
 
 SPEEDS = (1.0, 0.5, 0.25)
 
@@ -41,7 +42,7 @@ def interval(model: Model) -> float:
 def placed(model: Model, closed: float, h: float) -> Placed:
     """All poles of the loop at q = exp(-h/closed), as many as the sampled process has with one integrator."""
     q = math.exp(-h / closed)
-    from loopbook.sampling import sample
+    from loopbook.process.sampled import sample
 
     B, A = sample(model.process, h).polynomials
     try:

@@ -34,7 +34,7 @@ class SampledProgram:
 
     def listing(self) -> str:
         """The program, generated from the derived difference equations, with the numbers of this design."""
-        from derivations.pid_code import minimal
+        from derivations.programs.pid_code import minimal
 
         lines = minimal().listing().splitlines()
         body = lines[lines.index("repeat:") :]

@@ -8,6 +8,7 @@ def derive() -> None:
 
     All of that is pure: a design gives the same report whether it finds it done or does it itself.
     """
+    from loopbook.design import figures as design  # noqa: F401
     from loopbook.design import limited, placement, tables  # noqa: F401 (imported for the designs to come)
     from loopbook.design.candidates import candidates
     from loopbook.design.evaluation import evaluate
@@ -15,8 +16,7 @@ def derive() -> None:
     from loopbook.design.program import sampled_program
     from loopbook.identification import choice, graphical
     from loopbook.identification.models import FIRST_ORDER
-    from loopbook.identification.record import Record
-    from loopbook.plots import design  # noqa: F401
+    from loopbook.records.record import Record
 
     time = np.linspace(0.0, 20.0, 101)
     response = FIRST_ORDER.response(time, [(1.0, 1.0)], (2.0,), 1.0)

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from loopbook.design.placement import Placed
     from loopbook.design.program import SampledProgram
     from loopbook.design.recommendation import Recommendation
-    from loopbook.display import Table
     from loopbook.identification.choice import Identified
-    from loopbook.simulation import Simulation
+    from loopbook.response.simulation import Simulation
+    from notebook_reports.display import Table
 
 VARIATIONS = 20
 EXPECTED = (
@@ -64,7 +64,7 @@ class Study:
     def identified(self) -> "Identified | None":
         """The record with its fitted models; None where a model was given."""
         from loopbook.identification.choice import identify
-        from loopbook.identification.reading import read_csv
+        from loopbook.records.reading import read_csv
 
         if not self.recorded:
             return None

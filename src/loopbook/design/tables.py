@@ -8,9 +8,9 @@ from loopbook.design.evaluation import Evaluation, Robustness
 from loopbook.design.program import GAINS, SampledProgram
 from loopbook.design.recommendation import Recommendation
 from loopbook.design.study import Study
-from loopbook.display import Table, number
 from loopbook.identification.graphical import readings
 from loopbook.identification.least_squares import Parameter
+from notebook_reports.display import Table, number
 
 
 def _shown(value: float, digits: int = 3) -> str:

@@ -1,8 +1,8 @@
 """Step and frequency experiment together: Kp e^(-L1 s)/((1 + s T1)(1 + s T2)) (pid-report, section 5.2.7).
 
 T1 follows from the gain at -180 degrees and L1 from the phase, for any alpha = T2/T1; what is left is one equation in
-alpha, the step response at T63 (`derivations.two_lags`). `solve` brackets its root. `grid` walks through 100,000 alphas
-as the program of figure 5.12 does, with its sums and its rounding.
+alpha, the step response at T63 (`derivations.experiments.two_lags`). `solve` brackets its root. `grid` walks through
+100,000 alphas as the program of figure 5.12 does, with its sums and its rounding.
 """
 
 import math
@@ -25,7 +25,7 @@ def _functions(backend: str):
     equal lags, e2 and e3."""
     import sympy
 
-    from derivations import two_lags as d
+    from derivations.experiments import two_lags as d
 
     tail = sympy.Symbol("tail")
     found = d.residuals(tail)

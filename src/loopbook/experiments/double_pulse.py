@@ -2,7 +2,8 @@
 
     Kp = -ymax^2/(ua ymin),   T = -Tp/log(1 + ymin/ymax),   L = tmax - Tp = tmin - 2 Tp
 
-The formulas come from `derivations.double_pulse.estimate` (the report prints the quotient in T upside down).
+The formulas come from `derivations.experiments.double_pulse.estimate` (the report prints the quotient in T upside
+down).
 """
 
 from functools import cache
@@ -11,15 +12,15 @@ import numpy as np
 
 from loopbook.experiments.data import StepData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, settling_horizon, smooth
-from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
+from loopbook.records.record import Record
+from loopbook.records.steps import noise_level
 
 
 @cache
 def _functions():
     import sympy
 
-    from derivations import double_pulse as d
+    from derivations.experiments import double_pulse as d
 
     found = d.estimate()
     arguments = (d.u_a, d.T_p, d.y_max, d.y_min, d.t_max, d.t_min)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from loopbook.process import Process
+from loopbook.process.transfer_function import Process
 
 OCTAVE = 32  # instants per doubling of the spacing
 
@@ -20,7 +20,7 @@ class ExactResponse:
     def __init__(self, process: Process, horizon: float):
         from scipy.linalg import expm
 
-        from loopbook.state_space import observer_form
+        from loopbook.numerics.state_space import observer_form
 
         plant = observer_form(process.den, [process.num])
         n = len(plant.A)

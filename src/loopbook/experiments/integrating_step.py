@@ -3,7 +3,7 @@
     Kv = slope/du,   L: where the tangent cuts the level before the step
 
 The tangent also stands dy = Kv du L below the starting level at the instant of the step, so Kv = dy/(L du)
-(`derivations.reaction_curve.velocity_gain`).
+(`derivations.experiments.reaction_curve.velocity_gain`).
 """
 
 import math
@@ -13,9 +13,9 @@ import numpy as np
 from loopbook.experiments.data import IntegratingStepData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant
 from loopbook.experiments.step import single_step
-from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
-from loopbook.process import Process
+from loopbook.process.transfer_function import Process
+from loopbook.records.record import Record
+from loopbook.records.steps import noise_level
 
 BENT = 0.02  # relative difference of the slopes in the two halves of the tail that still counts as one line
 

@@ -12,8 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from loopbook.identification.record import Record
-from loopbook.process import Process
+from loopbook.process.transfer_function import Process
+from loopbook.records.record import Record
 from loopbook.refusal import Refusal
 
 
@@ -62,7 +62,7 @@ class Plant:
 
     def step_response(self, horizon: float, frequency: float = 0.0, phase: float = 0.0):
         """The response to a step (frequency 0) or to sin(w t + phase) switched on at 0; a `Signal` on [0, horizon]."""
-        from loopbook.responses import open_loop_step
+        from loopbook.numerics.step_response import open_loop_step
 
         key = horizon, frequency, phase
         if key not in self._responses:

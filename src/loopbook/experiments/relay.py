@@ -2,8 +2,8 @@
 
     K180 = pi ya/(4 ua),   T180: the period of the oscillation
 
-from the relay's describing function (`derivations.describing_function`). With hysteresis the oscillation stands where
-the process's phase is arcsin(epsilon/ya) short of -180 degrees; the estimate says so.
+from the relay's describing function (`derivations.experiments.describing_function`). With hysteresis the oscillation
+stands where the process's phase is arcsin(epsilon/ya) short of -180 degrees; the estimate says so.
 """
 
 import math
@@ -13,8 +13,8 @@ import numpy as np
 
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant
-from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
+from loopbook.records.record import Record
+from loopbook.records.steps import noise_level
 
 MOST_SWITCHINGS = 60
 ROUNDING = 1e-13
@@ -25,7 +25,7 @@ SAME = 0.03  # how much the last periods may differ
 def _process_gain():
     import sympy
 
-    from derivations import describing_function as d
+    from derivations.experiments import describing_function as d
 
     return sympy.lambdify((d.y_a, d.u_a), d.process_gain(), "math")
 
@@ -93,7 +93,7 @@ def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: 
 
 
 def _horizon(plant: Plant) -> float:
-    from loopbook.frequency import NoSuchFrequency, ultimate
+    from loopbook.process.frequency_response import NoSuchFrequency, ultimate
 
     try:
         return 14 * ultimate(plant.process).T180

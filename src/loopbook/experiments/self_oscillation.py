@@ -10,8 +10,8 @@ import numpy as np
 
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, smooth
-from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
+from loopbook.records.record import Record
+from loopbook.records.steps import noise_level
 
 STEADY = 0.05  # what the amplitude may change from one period to the next
 
@@ -22,8 +22,8 @@ def run(plant: Plant, gain: float, step: float = 1.0, horizon: float | None = No
     Raises ExperimentError where the actuator's limits are reached, for then the amplitude is the actuator's: make the
     step smaller.
     """
-    from loopbook.regulator import Regulator
-    from loopbook.responses import closed_loop_step
+    from loopbook.controllers.regulator import Regulator
+    from loopbook.response.closed_loop import closed_loop_step
 
     horizon = horizon or _horizon(plant)
     y, u = closed_loop_step(plant.process, Regulator.of(float(gain)), "reference", horizon)
@@ -38,7 +38,7 @@ def run(plant: Plant, gain: float, step: float = 1.0, horizon: float | None = No
 
 
 def _horizon(plant: Plant) -> float:
-    from loopbook.frequency import NoSuchFrequency, ultimate
+    from loopbook.process.frequency_response import NoSuchFrequency, ultimate
 
     try:
         return 12 * ultimate(plant.process).T180

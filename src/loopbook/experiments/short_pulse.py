@@ -1,8 +1,8 @@
 """A short pulse on an integrating process (pid-report, section 5.3.7.2): it answers as a stable one does to a step.
 
 A pulse of width w and height area/w makes Kv e^(-L1 s)/(s (1 + s T2)) answer, for w -> 0, with area times the step
-response of Kv e^(-L1 s)/(1 + s T2) (`derivations.reaction_curve.short_pulse_response`). So the constructions of a step
-give Kv, T2 and L1. The pulse should be shorter than a tenth of L1 and of T2.
+response of Kv e^(-L1 s)/(1 + s T2) (`derivations.experiments.reaction_curve.short_pulse_response`). So the
+constructions of a step give Kv, T2 and L1. The pulse should be shorter than a tenth of L1 and of T2.
 """
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from loopbook.experiments import step
 from loopbook.experiments.data import IntegratingPulseData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant
-from loopbook.identification.record import Record
-from loopbook.process import Process
+from loopbook.process.transfer_function import Process
+from loopbook.records.record import Record
 
 
 def run(plant: Plant, width: float, area: float = 1.0, horizon: float | None = None) -> Record:

@@ -12,8 +12,8 @@ import numpy as np
 
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant
-from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
+from loopbook.records.record import Record
+from loopbook.records.steps import noise_level
 
 PERIODS = 4  # fitted at the end of the record
 STRIDE = 1.4  # from one frequency tried to the next

@@ -2,8 +2,8 @@
 
     Kp = dy/du,   L: where the steepest tangent cuts the level before the step,   T = T63 - L
 
-T63 counts from the step to the instant at which 1 - 1/e of the way is made; `derivations.reaction_curve` shows that a
-first-order process with dead time gives its own Kp, T and L so.
+T63 counts from the step to the instant at which 1 - 1/e of the way is made; `derivations.experiments.reaction_curve`
+shows that a first-order process with dead time gives its own Kp, T and L so.
 """
 
 import math
@@ -13,9 +13,9 @@ import numpy as np
 from loopbook.experiments.data import StepData
 from loopbook.experiments.exact_response import ExactResponse
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, settling_horizon, smooth
-from loopbook.identification.record import Record
-from loopbook.identification.steps import noise_level
-from loopbook.process import Process
+from loopbook.process.transfer_function import Process
+from loopbook.records.record import Record
+from loopbook.records.steps import noise_level
 
 REACHED = 1 - math.exp(-1)
 STILL = 0.02  # of the change: what the output may move over the last fifth of a record that has settled

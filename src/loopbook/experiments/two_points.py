@@ -1,6 +1,6 @@
 """A first-order model with dead time from two instants of a step response: 63.2 % and 28.3 % of the way.
 
-    T = 1.5 (t1 - t2),   T0 = t1 - T                 (pid-article; derived in `derivations.two_point_fit`)
+    T = 1.5 (t1 - t2),   T0 = t1 - T                 (pid-article; derived in `derivations.experiments.two_point_fit`)
 
 Both instants count from the step of the input.
 """
@@ -17,7 +17,7 @@ PARTS = (0.632, 0.283)
 def _formulas():
     import sympy
 
-    from derivations import two_point_fit as f
+    from derivations.experiments import two_point_fit as f
 
     rules = f.fit_283_632()
     return sympy.lambdify((f.t1, f.t2), [rules[f.T], rules[f.T0]], "math")

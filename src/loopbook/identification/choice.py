@@ -6,8 +6,8 @@ import numpy as np
 
 from loopbook.identification.least_squares import Fit, fit_all
 from loopbook.identification.models import FIRST_ORDER, INTEGRATING, SECOND_ORDER, Structure
-from loopbook.identification.record import Record, RecordError
-from loopbook.identification.steps import Steps
+from loopbook.records.record import Record, RecordError
+from loopbook.records.steps import Steps
 
 CLEARLY_BETTER = 10.0  # Akaike's criterion: a difference beyond 10 leaves the other model no support
 POOREST_FIT = 40.0  # percent

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from loopbook.experiments.plant import smooth
-from loopbook.identification.record import Record
-from loopbook.identification.steps import find_steps
+from loopbook.records.record import Record
+from loopbook.records.steps import find_steps
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.models import STRUCTURES, Structure
-from loopbook.identification.record import Record
-from loopbook.identification.steps import Steps, find_steps
+from loopbook.records.record import Record
+from loopbook.records.steps import Steps, find_steps
 
 CONFIDENCE = 0.95
 

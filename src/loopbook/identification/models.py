@@ -38,8 +38,8 @@ class Structure:
         return total
 
     def process(self, gain: float, lags: tuple[float, ...], delay: float):
-        """The model as a `loopbook.process.Process`."""
-        from loopbook.process import Process
+        """The model as a `loopbook.process.transfer_function.Process`."""
+        from loopbook.process.transfer_function import Process
 
         den = np.array([1.0])
         for lag in lags:
@@ -67,7 +67,7 @@ def _function(name: str) -> Callable[..., np.ndarray]:
     """A derived step response as a NumPy function of t and its time constants."""
     import sympy
 
-    from derivations import step_responses
+    from derivations.experiments import step_responses
 
     expression = getattr(step_responses, name)()
     constants = [c for c in (step_responses.T, step_responses.T2) if c in expression.free_symbols]

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.frequency import frequency_at
-from loopbook.loop import Loop
+from loopbook.loop.continuous import Loop
 from loopbook.plots.curves import COLOURS, STYLES
-from loopbook.process import Process
+from loopbook.process.frequency_response import frequency_at
+from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo import circle
 
 

@@ -7,7 +7,7 @@ from loopbook.plots.curves import curves
 
 
 def runs(named: Mapping[str, Any], title: str, y: str = "speed [km/h]", u: str = "output [V]", **more: Any) -> Any:
-    """A matplotlib figure of several `loopbook.simulation.Simulation` by name. more: as for `curves`."""
+    """A matplotlib figure of several `loopbook.response.simulation.Simulation` by name. more: as for `curves`."""
     speeds = {name: (run.t, run.y) for name, run in named.items()}
     outputs = {name: (run.t, run.u) for name, run in named.items()}
     return curves({y: speeds, u: outputs}, title, **more)

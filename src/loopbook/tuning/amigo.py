@@ -1,8 +1,9 @@
 """AMIGO: PI and PID settings from a step response, from a frequency point, or from both.
 
 Each function takes the data of one kind of experiment (`loopbook.experiments.data`), computes with the expressions of
-`derivations.amigo`, and returns the settings with the set-point weight b, the relative dead time tau or the gain ratio
-kappa, and notes on how far the rule can be trusted there. Data of another kind are refused with the rule that fits.
+`derivations.tuning.amigo`, and returns the settings with the set-point weight b, the relative dead time tau or the gain
+ratio kappa, and notes on how far the rule can be trusted there. Data of another kind are refused with the rule that
+fits.
 """
 
 from collections.abc import Callable
@@ -17,8 +18,8 @@ from loopbook.experiments.data import (
     StepData,
     TwoLagData,
 )
-from loopbook.tuning import RuleDoesNotApply, Tuning
 from loopbook.tuning.amigo_filter import with_filter
+from loopbook.tuning.rule import RuleDoesNotApply, Tuning
 
 __all__ = [
     "Amigo",
@@ -36,7 +37,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
-    from derivations.amigo import Rule
+    from derivations.tuning.amigo import Rule
 
 SOURCE = "Åström and Hägglund, Advanced PID control (2006); pid-report, section {}"
 FITTING = {
@@ -168,8 +169,8 @@ def pid_combined(data: TwoLagData, tau: float) -> Amigo:
         ki = (b1/L1 + b2 T1/L1^2 + b3 T2/L1^2 + b4 T1 T2/L1^3)/Kp
         kd = (c1 L1 + c2 T1 + c3 T2 + c4 T1 T2/L1) (T1+T2)/(T1+T2+L1)/Kp,   Ti = K/ki,   Td = kd/K
 
-    with the twelve weights of `derivations.amigo.SECOND_ORDER`. tau: of the step data, for b (0 up to 0.5, 1 above).
-    Raises RuleDoesNotApply for L1 = 0.
+    with the twelve weights of `derivations.tuning.amigo.SECOND_ORDER`. tau: of the step data, for b (0 up to 0.5, 1
+    above). Raises RuleDoesNotApply for L1 = 0.
 
     >>> settings = pid_combined(TwoLagData(Kp=1, T1=0.9988, T2=0.1057, L1=0.0102), tau=0.0673)
     >>> round(settings.K, 3), round(settings.Ti, 4), round(settings.Td, 4)
@@ -200,7 +201,7 @@ def pid_combined_integrating(data: IntegratingPulseData) -> Amigo:
 def decimals(expression: Any) -> Any:
     """A rule's expression for the eye: fractions as the decimals they are, such as 0.35 for 7/20.
 
-    >>> from derivations.amigo import pi_step_integrating
+    >>> from derivations.tuning.amigo import pi_step_integrating
     >>> decimals(pi_step_integrating().Ti)
     13.4*L
     """
@@ -259,7 +260,7 @@ def _needs_dead_time(name: str, L: float) -> None:
 
 
 def _rule(name: str) -> "Rule":
-    from derivations import amigo
+    from derivations.tuning import amigo
 
     return getattr(amigo, name)()
 
@@ -273,7 +274,7 @@ def _functions(name: str) -> list[Callable]:
 
 
 def _result(name: str, numbers: tuple[float, ...], tau: float | None = None, kappa: float | None = None) -> Amigo:
-    from loopbook.forms import PidStandard
+    from loopbook.controllers.pid_forms import PidStandard
 
     rule = _rule(name)
     K, Ti, Td = (float(f(*numbers)) for f in _functions(name))

@@ -3,7 +3,7 @@
 from typing import Any
 
 from loopbook.experiments.data import StepData, TwoLagData
-from loopbook.tuning import RuleDoesNotApply
+from loopbook.tuning.rule import RuleDoesNotApply
 
 
 def with_filter(data: Any, Tf: float) -> Any:
@@ -20,7 +20,7 @@ def with_filter(data: Any, Tf: float) -> Any:
 
     import sympy
 
-    from derivations import amigo
+    from derivations.tuning import amigo
 
     if not Tf >= 0:
         raise RuleDoesNotApply(f"Tf = {Tf!r} s: a filter's time constant is zero or positive")

@@ -1,16 +1,16 @@
 """A PID controller for a wanted phase margin at a wanted crossover frequency, exact with dead time.
 
-Formulas: `derivations.pid_by_angles`. The two angles that are left over, those of one zero and of the filter's pole,
-are choices; what `double-tank` prints as the outcome of a tool has them at pi/4 and 0.00875 rad.
+Formulas: `derivations.tuning.pid_by_angles`. The two angles that are left over, those of one zero and of the filter's
+pole, are choices; what `double-tank` prints as the outcome of a tool has them at pi/4 and 0.00875 rad.
 """
 
 from fractions import Fraction
 from math import pi
 from typing import Any, NamedTuple
 
-from loopbook.forms import PidParallel
-from loopbook.process import Process
-from loopbook.tuning import RuleDoesNotApply
+from loopbook.controllers.pid_forms import PidParallel
+from loopbook.process.transfer_function import Process
+from loopbook.tuning.rule import RuleDoesNotApply
 
 
 def parameters(
@@ -28,7 +28,7 @@ def parameters(
     import mpmath
     import sympy
 
-    from derivations import pid_by_angles as by_angles
+    from derivations.tuning import pid_by_angles as by_angles
 
     with mpmath.workdps(digits + 10):
         number = lambda v: mpmath.mpf(str(sympy.N(sympy.sympify(v), digits + 10)))  # noqa: E731
@@ -66,7 +66,7 @@ def _decimal(value: float) -> Any:
 def pid(process: Process, w: Any, phase_margin: Any, zero: Any = None, pole: Any = 0.01) -> PidParallel:
     """The same as a controller, all parts acting on the error.
 
-    >>> from loopbook.loop import Loop
+    >>> from loopbook.loop.continuous import Loop
     >>> plant = Process.fopdt(1, 5, 2)
     >>> round(Loop(plant, pid(plant, 0.3, pi / 3)).margins().phase, 9)
     60.0
@@ -94,7 +94,7 @@ def angles_of(process: Process, controller: PidParallel) -> Angles:
     """
     import numpy as np
 
-    from loopbook.loop import Loop
+    from loopbook.loop.continuous import Loop
 
     crossovers = Loop(process, controller).margins().gain_crossovers
     zeros = np.roots(controller.transfer()[0])
@@ -103,20 +103,3 @@ def angles_of(process: Process, controller: PidParallel) -> Angles:
     w = crossovers[0].w
     zero, lead = sorted(float(x) for x in np.arctan(w / -zeros.real))
     return Angles(w, float(np.radians(crossovers[0].phase_margin)), zero, lead, float(np.arctan(w / controller.N)))
-
-
-def crossover_range(
-    process: Process, name: str, printed: str, near: float, phase_margin: Any, zero: Any, pole: Any
-) -> tuple[Fraction, Fraction]:
-    """The crossover frequencies [rad/s] (from, to) for which the parameter `name` rounds to its printed digits.
-
-    By the parameter's slope at `near`, which must lie close (relative 1e-10).
-    """
-    from loopbook.ledger import last_place
-
-    w, step = Fraction(near), Fraction(near) / 10**10
-    value, after = (parameters(process, x, phase_margin, zero, pole, digits=40)[name] for x in (w, w + step))
-    slope = (after - value) / step
-    half = last_place(printed) / 2
-    ends = sorted(w + (Fraction(printed) + side * half - value) / slope for side in (-1, 1))
-    return ends[0], ends[1]

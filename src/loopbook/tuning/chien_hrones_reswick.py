@@ -1,9 +1,9 @@
 """Chien, Hrones and Reswick: settings from a step response, for no overshoot or for 20 %, and which type to take.
 
-Formulas: `derivations.rules.chr_rules`, for changes of the set-point. All times in seconds.
+Formulas: `derivations.tuning.rules.chr_rules`, for changes of the set-point. All times in seconds.
 """
 
-from loopbook.tuning import RuleDoesNotApply, Tuning, compute
+from loopbook.tuning.rule import RuleDoesNotApply, Tuning, compute
 
 TYPES = ("p", "pi", "pid")
 BOUNDS = {"higher order": (0.0, 3.0), "pid": (3.0, 7.5), "pi": (7.5, 10.0), "p": (10.0, float("inf"))}

@@ -1,9 +1,9 @@
 """PI for a first-order plant without dead time: Ti = T cancels the pole, the gain sets the closed loop's speed.
 
-Formulas: `derivations.rules.lambda_rules`, derived in `derivations.first_order_loop`.
+Formulas: `derivations.tuning.rules.lambda_rules`, derived in `derivations.loop.first_order_loop`.
 """
 
-from loopbook.tuning import Tuning, compute
+from loopbook.tuning.rule import Tuning, compute
 
 
 def pole_cancelling_pi(k: float, T: float, closed: float) -> Tuning:

@@ -1,9 +1,9 @@
 """Lambda tuning: PI or PID for a first-order model with dead time and a wanted closed-loop time constant.
 
-Formulas: `derivations.rules.lambda_rules`. All times in seconds.
+Formulas: `derivations.tuning.rules.lambda_rules`. All times in seconds.
 """
 
-from loopbook.tuning import Tuning, compute
+from loopbook.tuning.rule import Tuning, compute
 
 
 def settings(k: float, T: float, T0: float, closed: float, type: str = "pi") -> Tuning:

@@ -1,10 +1,10 @@
 """MIGO: the PI and PID regulators of largest integral gain for a given robustness.
 
 Maximise ki = K/Ti subject to |C + L(i w)| >= R for all w: the Nyquist curve of L = G (k + ki/s + kd s) stays out of the
-circle that encloses both the Ms and the Mp circle of value M (`derivations.robustness.joint_circle`).
+circle that encloses both the Ms and the Mp circle of value M (`derivations.loop.robustness.joint_circle`).
 
 Where the curve touches the circle smoothly, k, ki and kd are explicit functions of the touching frequency w
-(`derivations.robustness.smooth_branch`). So the optimum needs no search in three dimensions:
+(`derivations.loop.robustness.smooth_branch`). So the optimum needs no search in three dimensions:
 
     PI    kd(w) = 0, on the rising branch: one root of one function
     PID   kd and ki both grow with w; follow w upwards until the curve touches the circle a second time, at w2
@@ -18,9 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from loopbook.frequency import NoSuchFrequency, frequency_at, phase
-from loopbook.process import Process
-from loopbook.tuning import RuleDoesNotApply, Tuning
+from loopbook.process.frequency_response import NoSuchFrequency, frequency_at, phase
+from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo_branch import (
     M_DEFAULT,
     TOLERANCE,
@@ -31,6 +30,7 @@ from loopbook.tuning.migo_branch import (
     local_clearance,
     smooth_branch,
 )
+from loopbook.tuning.rule import RuleDoesNotApply, Tuning
 
 __all__ = ["M_DEFAULT", "Migo", "circle", "clearance", "is_stable", "pi", "pid", "smooth_branch"]
 
@@ -200,7 +200,7 @@ def _bisected(process: Process, scale: float, low: float, high: float, M: float)
 
 
 def _result(process: Process, rule: str, M: float, gains: tuple[float, float, float], touches) -> Migo:
-    from loopbook.forms import PidStandard
+    from loopbook.controllers.pid_forms import PidStandard
 
     k, ki, kd = map(float, gains)
     settings = PidStandard(K=k, Ti=k / ki, Td=kd / k, b=0.0)
@@ -212,8 +212,8 @@ def _result(process: Process, rule: str, M: float, gains: tuple[float, float, fl
 
 def is_stable(process: Process, regulator) -> bool:
     """Are all roots of the loop to the left of the imaginary axis, by its argument count?"""
-    from loopbook.loop_transfer import LoopTransfer
-    from loopbook.stability import unstable_roots
+    from loopbook.loop.stability import unstable_roots
+    from loopbook.loop.transfer import LoopTransfer
 
     num, den = regulator.transfer()
     loop = LoopTransfer(tuple(np.polymul(num, process.num)), tuple(np.polymul(den, process.den)), process.delay)

@@ -1,7 +1,7 @@
 """The smooth optimum as a function of its touching frequency, and how clear of the circle a Nyquist curve stays.
 
-What `loopbook.tuning.migo` searches with: k, ki and kd from `derivations.robustness.smooth_branch`, and the clearance
-|C + L(i w)| - R on grids that see every approach to the circle.
+What `loopbook.tuning.migo` searches with: k, ki and kd from `derivations.loop.robustness.smooth_branch`, and the
+clearance |C + L(i w)| - R on grids that see every approach to the circle.
 """
 
 import math
@@ -9,8 +9,8 @@ from functools import cache
 
 import numpy as np
 
-from loopbook.frequency import response
-from loopbook.process import Process
+from loopbook.process.frequency_response import response
+from loopbook.process.transfer_function import Process
 
 M_DEFAULT = 1.4
 TOLERANCE = 1e-7  # of the distance to the circle: what rounding may take off it
@@ -25,7 +25,7 @@ def circle(M: float) -> tuple[float, float]:
     """
     import sympy
 
-    from derivations import robustness
+    from derivations.loop import robustness
 
     if not M > 1:
         raise ValueError(f"M = {M}: a loop's largest sensitivity exceeds 1, so M must")
@@ -39,7 +39,7 @@ def _branch_functions():
     """k, ki and kd of the smooth branch as NumPy functions of (w, a, b, r, da, db, C, R)."""
     import sympy
 
-    from derivations import robustness as d
+    from derivations.loop import robustness as d
 
     found = d.smooth_branch()
     arguments = (d.w, d.a, d.b, d.r, d.da, d.db, d.C, d.R)

@@ -1,13 +1,13 @@
 """SIMC (Skogestad 2003): PI for one lag with dead time, PID for two, with one parameter for speed.
 
-Formulas: `derivations.rules.simc_rules`. A process of more lags is first reduced by the half rule. All times in
+Formulas: `derivations.tuning.rules.simc_rules`. A process of more lags is first reduced by the half rule. All times in
 seconds.
 """
 
 import math
 from collections.abc import Sequence
 
-from loopbook.tuning import RuleDoesNotApply, Tuning, compute
+from loopbook.tuning.rule import RuleDoesNotApply, Tuning, compute
 
 
 def half_rule(lags: Sequence[float], T0: float, inverse: Sequence[float] = (), order: int = 1):

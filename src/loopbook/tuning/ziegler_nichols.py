@@ -1,9 +1,9 @@
 """Ziegler and Nichols: settings from a step response or from the ultimate gain, in the variants that are in print.
 
-Formulas: `derivations.rules.step_rules` and `derivations.rules.ultimate_rules`. All numbers in seconds.
+Formulas: `derivations.tuning.rules.step_rules` and `derivations.tuning.rules.ultimate_rules`. All numbers in seconds.
 """
 
-from loopbook.tuning import RuleDoesNotApply, Tuning, compute
+from loopbook.tuning.rule import RuleDoesNotApply, Tuning, compute
 
 STEP_VARIANTS = {
     "p": "zn-step-p",
@@ -63,7 +63,7 @@ def ultimate_method(Ku: float, Tu: float, variant: str = "pid") -> Tuning:
         PID  K = 0.6 Ku, Ti = Tu/2, Td = Tu/8 (variant pid) or 0.12 Tu (variant pid-article)
 
     Ku: ultimate gain [u/y]; Tu: ultimate period [s]; both positive.
-    Exact values come from `derivations.routh.ultimate` (rational process) or the loop's margins (with dead time).
+    Exact values come from `derivations.loop.routh.ultimate` (rational process) or the loop's margins (with dead time).
     Raises RuleDoesNotApply where a number is not positive and finite, KeyError for an unknown variant.
 
     >>> tuning = ultimate_method(1.33, 6.3, "pid-article")

@@ -1,0 +1,1 @@
+"""Algebra: rational functions, equality, differences, delay polynomials, final values."""

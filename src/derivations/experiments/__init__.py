@@ -1,0 +1,1 @@
+"""What experiments on a process tell, in symbols."""

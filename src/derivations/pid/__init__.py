@@ -1,0 +1,1 @@
+"""PID laws, their terms, filters and update laws."""

@@ -1,0 +1,52 @@
+"""Two perfectly mixed tanks with a pipe between them: the model from the heat balances.
+
+A tank of volume V, through which Q flows, with inlet temperature T_in and heating power u:
+
+    rho c V dT/dt = rho c Q (T_in - T) + u
+
+The pipe moves the temperature on unchanged and V_r/Q later. Deviations from a steady state; s is the Laplace variable.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivations.algebra.rational import solved_for
+
+s = sp.Symbol("s")
+Q, c, rho = sp.symbols("Q c rho", positive=True)
+V1, Vr, V2 = sp.symbols("V_1 V_r V_2", positive=True)
+U, V = sp.symbols("U V")
+
+
+def mixed_tank(volume: sp.Expr, inlet: sp.Expr, power: sp.Expr = sp.S.Zero) -> sp.Expr:
+    """The tank's temperature for a given inlet temperature and heating power, all Laplace transforms.
+
+    >>> sp.simplify(mixed_tank(V2, V) - V / (V2 / Q * s + 1))
+    0
+    """
+    T = sp.Symbol("T")
+    return solved_for(T, rho * c * volume * s * T, rho * c * Q * (inlet - T) + power)
+
+
+def pipe(inlet: sp.Expr) -> sp.Expr:
+    """The temperature at the end of the pipe."""
+    return inlet * sp.exp(-Vr / Q * s)
+
+
+@cache
+def outlet() -> sp.Expr:
+    """Y(s) from the heating power U(s) in the first tank and the inlet temperature V(s)."""
+    return mixed_tank(V2, pipe(mixed_tank(V1, V, U)))
+
+
+@cache
+def path(source: sp.Symbol) -> sp.Expr:
+    """The transfer function from U or V to Y.
+
+    >>> path(U).subs(s, 0)
+    1/(Q*c*rho)
+    >>> path(V).subs(s, 0)
+    1
+    """
+    return sp.factor(sp.expand(outlet()).coeff(source))

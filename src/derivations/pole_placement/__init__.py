@@ -1,0 +1,1 @@
+"""Pole placement in symbols: the Diophantine equation, degrees, the RST law."""

@@ -1,0 +1,1 @@
+"""Programs of regulators as data: statements, their order, their equivalence."""

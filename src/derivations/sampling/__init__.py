@@ -1,0 +1,1 @@
+"""Sampled models in symbols."""

@@ -1,0 +1,93 @@
+"""The design report's figures: the record with its model, the responses of the rules, the trade-off between them."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from loopbook.plots.curves import COLOURS, STYLES, curves
+
+MOST = 6
+"""How many responses one figure can hold and still be read."""
+
+
+def record_or_step(study: Any) -> Any:
+    """The record with its model, captioned; for a model that was given its step response."""
+    from notebook_reports.display import figure
+
+    if study.identified is not None:
+        caption = "The recorded output with the fitted model, the residuals, and the recorded input."
+        return figure(record(study.identified), caption, "Three panels over time: output and model, residuals, input.")
+    model = study.model
+    t = np.linspace(0.0, 8 * (model.delay + sum(model.lags)), 400)
+    drawn = curves({"output $y$": {"model": (t, model.process.step(t))}}, "Unit step response of the given model")
+    return figure(drawn, "The step response of the given model.", "A curve over time that starts after the dead time.")
+
+
+def record(found: Any) -> Any:
+    """Input, output and the chosen model; below them the residuals. found: `identification.choice.Identified`."""
+    import matplotlib.pyplot as plt
+
+    log, fit = found.record, found.chosen
+    fig, axes = plt.subplots(
+        3, 1, figsize=(6.3, 5.4), sharex=True, layout="constrained", gridspec_kw={"height_ratios": [3, 1, 1]}
+    )
+    axes[0].plot(log.time, log.y, ".", color="0.6", markersize=2.5, label="measured")
+    axes[0].plot(log.time, log.y - fit.residuals, color=COLOURS[0], label=f"{fit.structure.name}, {fit.fit:.1f} %")
+    axes[0].set_ylabel(_label(log.output_name, log.output_unit))
+    axes[0].set_title("The record and the model fitted to it")
+    axes[0].legend(fontsize="small")
+    axes[1].plot(log.time, fit.residuals, color=COLOURS[1], linewidth=0.8)
+    axes[1].set_ylabel("residual")
+    axes[2].step(log.time, log.u, where="post", color=COLOURS[2])
+    axes[2].set_ylabel(_label(log.input_name, log.input_unit))
+    axes[2].set_xlabel("time $t$ [s]")
+    for axis in axes:
+        axis.grid(True, linewidth=0.4, alpha=0.5)
+    return fig
+
+
+def _label(name: str, unit: str) -> str:
+    return (f"{name} [{unit}]" if unit else name).replace("$", r"\$")
+
+
+def responses(evaluations: Sequence[Any], horizon: float) -> Any:
+    """y and u after a reference step at t = 0 and a load step at half the horizon, of at most six loops."""
+    t = np.linspace(0.0, horizon, 600)
+    outputs, inputs = {}, {}
+    for e in [e for e in evaluations if e.stable][:MOST]:
+        y1, u1 = e.reference.after([(0.0, 1.0)], np.minimum(t, e.reference.horizon))
+        y2, u2 = e.load.after([(horizon / 2, 1.0)], np.minimum(t, e.load.horizon))
+        outputs[e.candidate.name], inputs["_" + e.candidate.name] = (t, y1 + y2), (t, u1 + u2)
+    panels = {"output $y$": outputs, "input $u$": inputs}
+    return curves(panels, "Unit steps of the reference (at once) and of the load (half-way)", levels=(1.0,), height=5.0)
+
+
+def limited(run: Any) -> Any:
+    """The chosen regulator as it will run. run: `loopbook.response.simulation.Simulation`."""
+    panels = {"output $y$": {"sampled loop": (run.t, run.y), "reference": (run.t, run.reference)},
+              "input $u$": {"within the limits": (run.t, run.u), "demanded": (run.t, run.demanded)}}  # fmt: skip
+    return curves(panels, "The sampled regulator within the actuator's limits", height=4.6)
+
+
+def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
+    """Load error against robustness, one point a rule; PI as circles, PID as squares, the chosen one ringed."""
+    import matplotlib.pyplot as plt
+
+    fig, axis = plt.subplots(figsize=(6.3, 3.6), layout="constrained")
+    stable = [e for e in evaluations if e.stable]
+    for i, e in enumerate(stable):
+        how = {"marker": "s" if e.candidate.pid.Td else "o", "linestyle": "none", "markersize": 5}
+        colour = COLOURS[i % len(COLOURS)]
+        axis.plot(e.Ms, e.iae_load, color=colour, label=f"{i + 1}  {e.candidate.name}", **how)
+        axis.annotate(str(i + 1), (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
+    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
+    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
+        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
+    axis.set_yscale("log")
+    axis.set_xlabel("sensitivity peak $M_s$")
+    axis.set_ylabel("IAE after a load step")
+    axis.set_title("Robustness against load rejection")
+    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+    axis.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return fig

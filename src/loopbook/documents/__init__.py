@@ -1,0 +1,1 @@
+"""What serves one document only, a folder each, with what it prints as data."""

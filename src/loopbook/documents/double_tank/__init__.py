@@ -1,0 +1,1 @@
+"""double-tank: the Swedish laboratory report on two tanks with a transport delay."""

@@ -1,0 +1,1 @@
+"""pid-article: the Polish web article on the PID regulator."""

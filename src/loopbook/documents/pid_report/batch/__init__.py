@@ -1,0 +1,1 @@
+"""The batch of test processes behind AMIGO."""

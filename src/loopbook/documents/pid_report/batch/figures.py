@@ -1,0 +1,50 @@
+"""Settings over the optimum against the relative dead time: one point a process."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from loopbook.documents.pid_report.batch.study import Ratios
+from loopbook.plots.curves import COLOURS
+
+MARKERS = ("o", "s", "^", "v", "D", "P", "X", "*", "<")
+DECADES = 8.0  # from this spread on the axis is logarithmic
+NAMES = {"K": "$K/K_{MIGO}$", "Ti": "$T_i/T_{i,MIGO}$", "Td": "$T_d/T_{d,MIGO}$", "ki": "$k_i/k_{i,MIGO}$"}
+
+
+def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: float = 0.15) -> Any:
+    """One panel a parameter: its ratio to the optimum, grey band 1 +- `band`, families by marker."""
+    import matplotlib.pyplot as plt
+
+    rows = len(parameters)
+    fig, axes = plt.subplots(rows, 1, figsize=(6.3, 1.9 * rows + 0.4), sharex=True, squeeze=False, layout="constrained")
+    for axis, name in zip(axes[:, 0], parameters, strict=True):
+        for family in range(1, 10):
+            chosen = [m.family == family for m in ratios.members]
+            across, up = ratios.tau[chosen], getattr(ratios, name)[chosen]
+            look = {"marker": MARKERS[family - 1], "color": COLOURS[(family - 1) % len(COLOURS)]}
+            axis.plot(across, up, linestyle="none", markersize=4, markerfacecolor="none", label=str(family), **look)
+        axis.axhspan(1 - band, 1 + band, color="0.9", zorder=0)
+        values = getattr(ratios, name)
+        if values.max() > DECADES * values.min():
+            axis.set_yscale("log")
+        axis.set_ylabel(NAMES[name])
+        axis.grid(True, linewidth=0.4, alpha=0.5)
+    axes[0, 0].set_title(title)
+    axes[0, 0].legend(title="family", fontsize="x-small", title_fontsize="x-small", ncols=3, loc="best")
+    axes[-1, 0].set_xlabel(r"relative dead time $\tau$ [1]")
+    return fig
+
+
+def gain_figure(tau: Any, gain: Any, title: str) -> Any:
+    """The integral gain of PID over that of PI against the relative dead time."""
+    import matplotlib.pyplot as plt
+
+    fig, axis = plt.subplots(figsize=(6.3, 3.0), layout="constrained")
+    axis.plot(tau, gain, "o", markersize=4, markerfacecolor="none", color=COLOURS[0])
+    axis.axhline(2.0, color="0.6", linewidth=0.8, linestyle=":")
+    axis.set_yscale("log")
+    axis.set_xlabel(r"relative dead time $\tau$ [1]")
+    axis.set_ylabel("$k_i$ of PID over PI [1]")
+    axis.grid(True, linewidth=0.4, alpha=0.5)
+    axis.set_title(title)
+    return fig

@@ -1,0 +1,245 @@
+"""What section 5.3 of pid-report says of its rules, tested on the batch: by claim, (parts, evidence) for the ledger.
+
+The report uses words; here they have numbers. *Well* is within 15 % of the optimum, *fairly near* within 25 %, *nearly
+all* is nine of ten processes, *most* is more than half. Lag-dominated is tau < 0.3, balanced 0.4 < tau < 0.6.
+"""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from loopbook.documents.pid_report.batch import robustness as robust
+from loopbook.documents.pid_report.batch.study import RULES, Ratios, Study, ratios, share_within
+
+WELL, NEAR, NEARLY_ALL, FRAGILE = 0.15, 0.25, 0.9, 2.0
+Statements = dict[str, tuple[Mapping[str, bool] | bool, str]]
+
+
+def percent(share: float) -> str:
+    return f"{100 * share:.0f} %"
+
+
+class Batch:
+    """The studied batch as arrays over its processes: tau, kappa, what derivative action gains, and by rule the
+    settings over the optimum (`over`) and the joint M (`joint`)."""
+
+    def __init__(self, studies: Sequence[Study]):
+        self.studies = tuple(studies)
+        self.tau = np.array([s.tau for s in studies])
+        self.kappa = np.array([s.kappa for s in studies])
+        self.integrating = np.array([s.member.integrates for s in studies])
+        self.lag, self.balanced = self.tau < 0.3, (self.tau > 0.4) & (self.tau < 0.6)
+        self.middle, self.delay = (self.tau > 0.3) & (self.tau < 0.5), self.tau > 0.6
+
+    @cached_property
+    def over(self) -> dict[str, Ratios]:
+        return {rule: ratios(self.studies, rule) for rule in RULES}
+
+    @cached_property
+    def joint(self) -> dict[str, np.ndarray]:
+        return {rule: robust.joint(self.studies, rule) for rule in RULES}
+
+    @cached_property
+    def efficiency(self) -> np.ndarray:
+        """ki of the PI step rule over the largest possible at its own joint M."""
+        return robust.efficiency(self.studies, self.joint["PI step"])
+
+    @cached_property
+    def ziegler_nichols(self) -> np.ndarray:
+        """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
+        return robust.ziegler_nichols_joint(self.studies)
+
+    def gain(self, name: str) -> np.ndarray:
+        """ki or K of PID MIGO over that of PI MIGO."""
+        return np.array(
+            [getattr(s.settings["PID MIGO"], name) / getattr(s.settings["PI MIGO"], name) for s in self.studies]
+        )
+
+
+def derivative(b: Batch) -> Statements:
+    """Section 5.3.1: what derivative action is good for, and what it costs."""
+    ki, K = b.gain("ki"), b.gain("K")
+    fast = 11 * K  # K(1 + N) with a filter of N = 10, over K
+    slow, even, late = ki[b.lag], ki[b.balanced], ki[b.delay]
+    parts = {
+        r"less than twice for $\tau > 0.6$": late.max() < 2,
+        r"less than twice for balanced processes": even.max() < 2,
+        r"more than five times for most with $\tau < 0.2$": np.median(ki[b.tau < 0.2]) > 5,
+    }
+    ranges = f"{late.min():.2f} to {late.max():.2f} for tau > 0.6, up to {even.max():.2f} for balanced processes"
+    return {
+        "derivative-helps-lags": (parts, f"ki grows by {ranges}, {slow.min():.2f} to {slow.max():.3g} for tau < 0.3."),
+        "derivative-raises-gains": (
+            min(K.min(), ki.min()) > 1,
+            f"on all {len(ki)} processes: K at least {K.min():.3f} times, ki at least {ki.min():.3f} times",
+        ),
+        "pid-noise": (
+            fast.min() > 1,
+            f"gain for fast noise K(1 + N), filter N = 10, over K of PI: {fast.min():.1f} to {fast.max():.3g} times",
+        ),
+    }
+
+
+def derivative_filter(b: Batch) -> Statements:
+    """Section 5.3.2: the PID step rule with a filter of Td/10, with and without adjusted data."""
+    found = robust.joint_with_filter(b.studies)
+    worse, mended = np.mean(found["M filter"] > found["M"]), np.mean(found["M adjusted"] <= found["M filter"])
+    parts = {
+        "the filter lowers the robustness of all": worse == 1,
+        "it lowers that of most": worse > 0.5,
+        "the adjusted data raise it again for most": mended > 0.5,
+    }
+    evidence = f"joint M rises with the filter on {percent(worse)} of the processes; adjusted data lower it on "
+    return {
+        "filter-costs-robustness": (parts, f"{evidence}{percent(mended)}."),
+        "filter-costs-ki": (
+            found["ki"].max() < 1,
+            f"adjusted ki over unadjusted: {found['ki'].min():.3f} to {found['ki'].max():.3f}",
+        ),
+    }
+
+
+def pi_step(b: Batch) -> Statements:
+    """Section 5.3.3: the PI step rule."""
+    r, M = b.over["PI step"], b.joint["PI step"]
+    parts = {
+        "all $K$ well": share_within(r.K, WELL) == 1,
+        "all $T_i$ well": share_within(r.Ti, WELL) == 1,
+        "nearly all fairly near": min(share_within(r.K, NEAR), share_within(r.Ti, NEAR)) >= NEARLY_ALL,
+    }
+    evidence = f"K: {robust.spread(r.K)}; Ti: {robust.spread(r.Ti)}; joint M from {M.min():.2f} to {M.max():.2f}."
+    return {"pi-step-agrees": (parts, evidence)}
+
+
+def _follows(values: np.ndarray) -> tuple[dict[str, bool], str]:
+    within = {"nearly all fairly near": NEAR, "nearly all well": WELL}
+    parts = {name: share_within(values, width) >= NEARLY_ALL for name, width in within.items()}
+    return parts, f"{len(values)} processes: {robust.spread(values)}."
+
+
+def _on_one_side(outside: np.ndarray, values: np.ndarray) -> tuple[dict[str, bool], str]:
+    share = float(np.mean(outside))
+    parts = {"most": share > 0.5, "nearly all": share >= NEARLY_ALL}
+    return parts, f"{percent(share)} of {len(values)} processes: {robust.spread(values)}."
+
+
+def pid_step(b: Batch) -> Statements:
+    """Section 5.3.4: where K, Ti and Td of the PID step rule are good, too low or too high."""
+    r = b.over["PID step"]
+    Td = r.Td[b.lag]
+    either = f"{percent(np.mean(Td < 1))} smaller, {percent(np.mean(Td > 1))} larger; {robust.spread(Td)}"
+    return {
+        "pid-K-good": _follows(r.K[b.tau > 0.3]),
+        "pid-K-low": _on_one_side(r.K[b.lag] < 1, r.K[b.lag]),
+        "pid-Ti-good": _follows(r.Ti[b.tau > 0.2]),
+        "pid-Ti-high": _on_one_side(r.Ti[b.tau < 0.2] > 1, r.Ti[b.tau < 0.2]),
+        "pid-Td-good": _follows(r.Td[b.tau > 0.5]),
+        "pid-Td-half": (r.Td[b.middle].min() < 0.5, robust.spread(r.Td[b.middle])),
+        "pid-Td-either": (Td.min() < 1 < Td.max(), either),
+    }
+
+
+def pid_step_robustness(b: Batch) -> Statements:
+    """Section 5.3.4: the short derivative time, and whether the rule is conservative."""
+    r, ki = b.over["PID step"], b.gain("ki")
+    inside = [s for s, yes in zip(b.studies, b.middle, strict=True) if yes]
+    rule, best = b.joint["PID step"][b.middle], robust.joint_with_optimal_Td(inside)
+    worse = np.mean(rule > best)
+    lower, longer = (r.K < 1) & (r.ki < 1), r.Ti > 1
+    most = {name: [np.mean(x[k]) for x in (lower, longer)] for name, k in (("lag", b.lag), ("middle", b.middle))}
+    parts = {r"$\tau < 0.3$": min(most["lag"]) > 0.8, r"$0.3 < \tau < 0.5$": min(most["middle"]) > 0.8}
+    late, slow = r.ki[b.tau > 0.5], r.ki[b.lag]
+    gains = np.median(ki[b.tau > 0.5]), np.median(ki[b.lag])
+    medians = f"median {np.median(rule):.2f} against {np.median(best):.2f}"
+    shares = f"{percent(most['lag'][0])} of the processes with tau < 0.3 and {percent(most['middle'][0])} of those"
+    return {
+        "pid-Td-robustness": (
+            worse > 0.8,
+            f"joint M is larger with the rule's Td than with MIGO's on {percent(worse)} of {len(inside)}, {medians}",
+        ),
+        "pid-conservative-below": (parts, f"K and ki lie below the optimum on {shares} with 0.3 < tau < 0.5."),
+        "pid-good-where-not-needed": (
+            share_within(late, WELL) >= NEARLY_ALL and share_within(slow, WELL) < 0.5 and gains[1] > 4 * gains[0],
+            f"ki for tau > 0.5: {robust.spread(late)}, derivative action adds a factor {gains[0]:.2f}; for tau < 0.3: "
+            f"{robust.spread(slow)}, a factor {gains[1]:.1f} (medians)",
+        ),
+    }
+
+
+def frequency(b: Batch, rule: str) -> Statements:
+    """Sections 5.3.5 and 5.3.6: rule is "PI frequency" or "PID frequency"."""
+    r, M, fit, slug = b.over[rule], b.joint[rule], b.kappa > 0.2, rule.lower().replace(" ", "-")
+    names = ("K", "Ti", "Td") if rule.startswith("PID") else ("K", "Ti")
+    near = {name: share_within(getattr(r, name)[fit], NEAR) for name in names}
+    parts = {f"{name} fairly near for three of four": share >= 0.75 for name, share in near.items()}
+    worst, fragile = M[fit].max(), np.mean(M[b.lag] > FRAGILE)
+    shares = ", ".join(f"{name} {percent(share)}" for name, share in near.items())
+    K, tanks = [s.settings[rule].K for s in b.studies if s.member.integrates], M[b.integrating]
+    possible = {
+        "cannot be evaluated": not np.isfinite(K).all(),
+        "should not be used (joint M above 2)": tanks.min() > FRAGILE,
+    }
+    return {
+        f"{slug}-near": (
+            parts | {"joint M below 2": worst < FRAGILE},
+            f"within 25 % of MIGO, {fit.sum()} processes with kappa > 0.2: {shares}; joint M up to {worst:.2f}.",
+        ),
+        f"{slug}-unfit": (
+            fragile > 0.5,
+            f"joint M above 2 on {percent(fragile)} of the processes with tau < 0.3; {np.isinf(M).sum()} are unstable",
+        ),
+        f"{slug}-integrating": (
+            possible,
+            f"kappa = 0 gives settings; joint M is {tanks.min():.2f} at best, {np.isinf(tanks).sum()} of {len(tanks)} "
+            "loops are unstable.",
+        ),
+    }
+
+
+def combined(b: Batch) -> Statements:
+    """Section 5.3.7.1: the combined rule beside the two others."""
+    c, r, f = (b.over[rule] for rule in ("PID combined", "PID step", "PID frequency"))
+    late = b.tau > 0.5
+    like = [share_within(getattr(c, p)[late] / getattr(o, p)[late], NEAR) for p in ("K", "Ti", "ki") for o in (r, f)]
+    nearer = np.mean(abs(np.log(c.ki[b.lag])) < abs(np.log(r.ki[b.lag])))
+    models = sum(abs(s.missed) < 1e-6 and not s.member.integrates for s in b.studies)
+    return {
+        "combined-similar": (
+            min(like) >= NEARLY_ALL,
+            f"K, Ti and ki within 25 % of both other rules on {percent(min(like))} or more of those with tau > 0.5",
+        ),
+        "combined-better": (
+            nearer > 0.7 and share_within(c.ki[b.lag], NEAR) > 2 * share_within(r.ki[b.lag], NEAR),
+            f"tau < 0.3: ki nearer to the optimum on {percent(nearer)}; {robust.spread(c.ki[b.lag])}, step rule: "
+            f"{robust.spread(r.ki[b.lag])} ({models} of {(~b.integrating).sum()} have an exact two-lag model)",
+        ),
+    }
+
+
+def whole(b: Batch) -> Statements:
+    """Sections 5.3 and 6: does AMIGO maximise ki, and how does Ziegler-Nichols compare?"""
+    share, zn = b.efficiency, b.ziegler_nichols
+    worst = {rule: b.joint[rule].max() for rule in ("PI step", "PID step", "PID combined")}
+    pi, pid = b.over["PI step"].ki, b.over["PID step"].ki
+    parts = {
+        "PI: within 15 % of the largest $k_i$ at the robustness it reaches": share.min() >= 1 - WELL,
+        "nearly all within 15 % of the $k_i$ of MIGO": min(share_within(x, WELL) for x in (pi, pid)) >= NEARLY_ALL,
+    }
+    used = f"{percent(share.min())} to {percent(share.max())}"
+    return {
+        "amigo-maximises-ki": (
+            parts,
+            f"PI: {used} of the possible ki at its own M; ki over that of MIGO, PI: {robust.spread(pi)}, "
+            f"PID: {robust.spread(pid)}.",
+        ),
+        "zn-shortcomings": (
+            zn.min() > FRAGILE,
+            f"joint M of its PID step rule: {zn.min():.2f} to {zn.max():.2f} on {len(zn)} stable processes; AMIGO "
+            f"stays below {max(worst.values()):.2f}",
+        ),
+        "simple-experiments": (
+            max(worst.values()) < FRAGILE < zn.min(),
+            "all loops stable; largest joint M: " + ", ".join(f"{name} {M:.2f}" for name, M in worst.items()),
+        ),
+    }

@@ -1,0 +1,54 @@
+"""The document's own programs, as they stand in figures 4.7 and 4.9 to 4.13, to be run and compared."""
+
+from typing import Any
+
+from loopbook.controllers import generated
+from loopbook.controllers.settings import PidSettings
+
+FIGURES = ("4.7", "4.9", "4.10", "4.11", "4.12", "4.13", "shortest")
+
+
+class ProgramController:
+    """One program of pid-report, built from its derived assignments.
+
+    figure: one of `FIGURES`. settings: `PidSettings` with c = 0 and Ti given (rate and anti_windup are not used: each
+    program has its own). states: start values by name, the rest 0; names as in the listing, e.g. "y_fold", "x", "I".
+    gains: gains that replace the derived ones by name, to run a misprint.
+    Raises ValueError for an unknown figure or state.
+    """
+
+    def __init__(self, figure: str, settings: PidSettings, gains: dict[str, Any] | None = None, **states: Any):
+        if figure not in FIGURES:
+            raise ValueError(f"figure {figure!r} has no program; one of {', '.join(FIGURES)}")
+        self.figure = figure
+        self._pass = generated.program_pass(figure)
+        self.states = dict.fromkeys(self.state_names(figure), 0)
+        for name in states:
+            if name not in self.states:
+                raise ValueError(f"figure {figure} has no state {name!r}; it has {', '.join(self.states)}")
+        self.states |= states
+        self._replaced = gains or {}
+        self.change(settings)
+        self.u = self.v = None
+
+    @staticmethod
+    def state_names(figure: str) -> tuple[str, ...]:
+        from derivations.programs import pid_code as code
+
+        program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
+        return tuple(s.name for s in program.states())
+
+    def change(self, settings: PidSettings) -> None:
+        """Put in other settings; the states stay, as in the programs without eq. 4.10."""
+        s = settings
+        numbers = {"K": s.K, "T_i": s.Ti, "T_d": s.Td, "T_f": s.Tf, "b": s.b, "h": s.h, "T_t": s.Tt}
+        self.settings = settings
+        self._known = numbers | generated.program_gains(self.figure)(**numbers) | self._replaced
+        self._known |= {"u_low": s.u_low, "u_high": s.u_high}
+
+    def step(self, y: Any, y_sp: Any) -> Any:
+        """One pass: the output for this sample."""
+        result = self._pass(self._known | self.states | {"y_sp": y_sp, "y": y})
+        self.u, self.v = result["u"], result["v"]
+        self.states = {name: result[name] for name in self.states}
+        return self.u

@@ -1,0 +1,18 @@
+"""Programs as tables: what is computed when, and where it comes from."""
+
+from typing import Any
+
+from notebook_reports.display import Table
+
+
+def listing(program: Any) -> Table:
+    """The assignments of a `derivations.programs.pid_code.Program` in the order they run, with equation numbers."""
+    from derivations.programs.pid_code import statement
+
+    groups = (
+        ("when a setting changes", program.gains),
+        ("between y and u", program.before),
+        ("after u is set", program.after),
+    )
+    rows = [[when, f"`{statement(a)}`", a.equation] for when, part in groups for a in part]
+    return Table(["when", "assignment", "eq."], rows, f"The program of figure {program.figure}", ["left"] * 3)

@@ -1,0 +1,139 @@
+"""What saturation does to the integral, method by method: a step that saturates, a spike, a lock-up, a transfer.
+
+The process is 1/(s + 1)^2, sampled every h seconds. Source of the questions: pid-report, sections 4.2.3 to 4.2.6.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from loopbook.controllers import Pid, PidSettings
+from loopbook.documents.pid_report.printed_programs import ProgramController
+from loopbook.process.transfer_function import Process
+from loopbook.response.simulation import Simulation, simulate
+
+PROCESS = Process([1.0], [1.0, 2.0, 1.0])
+H = 0.1
+
+
+def settings(**more: Any) -> PidSettings:
+    """K = 4, Ti = 2 s, Td = 0.4 s, Tf = 0.1 s, limits 0 and 1.5; any of them may be replaced."""
+    base = {"K": 4.0, "Ti": 2.0, "Td": 0.4, "Tf": 0.1, "h": H, "u_low": 0.0, "u_high": 1.5}
+    return PidSettings(**{**base, **more})
+
+
+@dataclass(frozen=True)
+class Observed:
+    """A controller that remembers its integral part at each sample."""
+
+    controller: Any
+    integral: list[float]
+
+    def step(self, y: float, y_sp: float) -> float:
+        u = self.controller.step(y, y_sp)
+        state = getattr(self.controller, "states", None)
+        self.integral.append(float(state["I"] if state else self.controller.I))
+        return u
+
+
+def watched(controller: Any) -> Observed:
+    return Observed(controller, [])
+
+
+def unreachable(anti_windup: str, Tt: float | None = None, seconds: float = 40.0) -> tuple[Simulation, np.ndarray]:
+    """Set-point 1.8 for 15 s, more than the 1.5 that the process can reach, then 1. The run and I over time."""
+    observed = watched(Pid(settings(anti_windup=anti_windup, Tt=Tt)))
+    wanted = lambda t: 1.8 if t < 15 else 1.0  # noqa: E731
+    run = simulate(PROCESS, observed, H, round(seconds / H), reference=wanted)
+    return run, np.array(observed.integral)
+
+
+def recovery(run: Simulation, after: float = 15.0, wanted: float = 1.0, within: float = 0.02) -> float:
+    """Seconds after an instant until the output of the process stays within a band around the wanted value."""
+    outside = run.t[(abs(run.y - wanted) > within) & (run.t >= after)]
+    return float(outside[-1] - after) if len(outside) else 0.0
+
+
+def spike(anti_windup: str, Tt: float | None = None, size: float = 1.0) -> tuple[Simulation, np.ndarray]:
+    """A steady loop at 1 with one false sample, ``size`` too high, at 1 s. The run and I over time."""
+    start = settings(anti_windup=anti_windup, Tt=Tt)
+    p24 = start.K * start.Td / (start.Tf + start.h)
+    observed = watched(Pid(start, I=1.0, x=p24))
+    noise = np.zeros(121)
+    noise[10] = size
+    run = simulate(PROCESS, observed, H, 120, reference=1.0, noise=noise, u_before=1.0)
+    return run, np.array(observed.integral)
+
+
+def locked(rule: str) -> tuple[Simulation, np.ndarray]:
+    """A step of the set-point from rest: K = 6, Ti = 1.2 s, Td = 1.8 s, no filter, limits 0 and 1, set-point 0.8.
+
+    rule: "4.7" for the printed program, else a rule of anti-windup for `Pid` with the same settings and derivative
+    on the error. The run of 60 s and I over time.
+    """
+    tuned = PidSettings(K=6.0, Ti=1.2, Td=1.8, c=1.0, h=H, u_low=0.0, u_high=1.0)
+    if rule == "4.7":
+        observed = watched(ProgramController("4.7", tuned))
+    else:
+        observed = watched(Pid(tuned.changed(anti_windup=rule), x=0.0))
+    return simulate(PROCESS, observed, H, 600, reference=0.8), np.array(observed.integral)
+
+
+def transfer(way: str, error: float, seconds: float = 20.0) -> float:
+    """The step of the output at the change from manual to automatic, with a constant error during manual.
+
+    way: "exact" or "tracking". The controller has K = 4, Ti = 2 s, Tt = sqrt(Ti Td) and no limits in reach.
+    """
+    pid = Pid(settings(u_low=-100.0, u_high=100.0))
+    pid.manual(1.0)
+    for _ in range(round(seconds / H)):
+        pid.step(1.0 - error, 1.0)
+    pid.auto(way)
+    return pid.step(1.0 - error, 1.0) - 1.0
+
+
+class _Changing:
+    """A controller whose settings change at 1 s; it remembers its integral part."""
+
+    def __init__(self, bumpless: str, new: dict[str, float]):
+        start = settings(u_low=-100.0, u_high=100.0)
+        self.pid = Pid(start, I=1.0, x=start.K * start.Td / (start.Tf + start.h))
+        self.bumpless, self.new, self.integral = bumpless, new, []
+
+    def step(self, y: float, y_sp: float) -> float:
+        if len(self.integral) == round(1 / H):
+            self.pid.change(self.bumpless, **self.new)
+        u = self.pid.step(y, y_sp)
+        self.integral.append(float(self.pid.I))
+        return u
+
+
+def change(bumpless: str, **new: float) -> tuple[Simulation, np.ndarray]:
+    """A steady loop at 1 in which settings change at 1 s; bumpless as for `Pid.change`. The run and I over time."""
+    controller = _Changing(bumpless, new)
+    run = simulate(PROCESS, controller, H, 150, reference=1.0, u_before=1.0)
+    return run, np.array(controller.integral)
+
+
+def integrating(anti_windup: str) -> Simulation:
+    """A large set-point step, 10, on 1/(s(s + 1)) with limits -0.5 and 0.5: K = 0.8, Ti = 4 s, Td = 1 s, 120 s."""
+    tuned = settings(K=0.8, Ti=4.0, Td=1.0, u_low=-0.5, u_high=0.5, anti_windup=anti_windup)
+    return simulate(Process([1.0], [1.0, 1.0, 0.0]), Pid(tuned), H, 1200, reference=10.0)
+
+
+def recovery_of_pi(Tt: float) -> float:
+    """`recovery` after the unreachable set-point for a PI controller, K = 2, Ti = 2 s, with tracking time Tt [s]."""
+    wanted = lambda t: 1.8 if t < 15 else 1.0  # noqa: E731
+    pi = Pid(settings(K=2.0, Td=0.0, Tf=0.0, Tt=Tt))
+    return recovery(simulate(PROCESS, pi, H, 500, reference=wanted))
+
+
+def misprinted(unit: float | None) -> Simulation:
+    """A set-point step with the program of figure 4.13 and p4 = K Td h, as eq. 4.17 is read; None: with the right p4.
+
+    unit: the unit of time [s] in which the controller's times are counted. The time axis of the run is in seconds.
+    """
+    free = settings(u_low=-9.0, u_high=9.0)
+    wrong = {} if unit is None else {"p_4": free.K * (free.Td / unit) * (free.h / unit)}
+    return simulate(PROCESS, ProgramController("4.13", free, gains=wrong), H, 200, reference=1.0)

@@ -1,0 +1,1 @@
+"""Closed loops: continuous and sampled, with stability, margins and sensitivity peaks."""

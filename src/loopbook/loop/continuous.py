@@ -1,0 +1,222 @@
+"""A closed loop with exact dead time: one object that answers everything about it.
+
+    u = T/R r - S/R (y + n),      y = P(s) (u + d) + W(s) w,      P(s) = B/A exp(-L s)
+
+r reference, d load disturbance at the process input, n measurement noise, w a disturbance that enters elsewhere and
+reaches the output through W (which may have dead times of its own).
+
+    tank = Process([1 / 8360], [35, 12, 1], delay=2)
+    loop = Loop(tank, PidParallel(25194, 1956, 68803, 28.6))
+    loop.margins().phase                   # degrees, with the exact dead time
+    loop.step("reference").metrics().rise  # s, from the continuous response, accurate to rounding
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from loopbook.controllers.regulator import Regulator
+from loopbook.loop.margins import Margins, margins
+from loopbook.loop.stability import decay_rate, is_stable, unstable_roots
+from loopbook.loop.transfer import LoopError, LoopTransfer
+from loopbook.numerics.signals import HorizonError, Signal
+from loopbook.process.transfer_function import DelayedSum, Process
+from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
+
+SETTLED = 1e-9
+PATIENCE = np.log(1e11)
+
+
+@dataclass(frozen=True)
+class Loop:
+    """process with regulator in negative feedback; path: W(s) of the disturbance w, if there is one.
+
+    regulator: a `Regulator`, a PID form of `loopbook.controllers.pid_forms`, a rational `Process` or a number.
+    """
+
+    process: Process
+    regulator: Any
+    path: Process | DelayedSum | None = None
+    polynomials: Regulator = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "polynomials", Regulator.of(self.regulator))
+
+    @cached_property
+    def transfer(self) -> LoopTransfer:
+        """G(s) = S/R B/A exp(-Ls), from the loop's error around to the measurement."""
+        c = self.polynomials
+        num, den = np.polymul(c.S, self.process.num), np.polymul(c.R, self.process.den)
+        return LoopTransfer(tuple(num), tuple(den), self.process.delay)
+
+    def sensitivity(self, s: Any) -> Any:
+        """1/(1 + G) at complex s."""
+        return 1 / (1 + self.transfer(s))
+
+    def complementary_sensitivity(self, s: Any) -> Any:
+        """G/(1 + G) at complex s."""
+        G = self.transfer(s)
+        return G / (1 + G)
+
+    @cached_property
+    def unstable_roots(self) -> float:
+        """The number of closed-loop roots in the right half plane; see `stability.unstable_roots`."""
+        return unstable_roots(self.transfer)
+
+    @cached_property
+    def is_stable(self) -> bool:
+        """Do all roots lie to the left? Also False on the border, and for roots that process and regulator cancel."""
+        return is_stable(self.transfer)
+
+    @cached_property
+    def decay_rate(self) -> float:
+        """The slowest mode decays as exp(-decay_rate t) [1/s]. Raises LoopError for an unstable loop."""
+        return decay_rate(self.transfer)
+
+    def margins(self) -> Margins:
+        """Gain (both sides), phase and delay margins, Ms and Mt. Raises LoopError for an unstable loop."""
+        return margins(self.transfer)
+
+    def with_delay(self, more: float) -> "Loop":
+        """The same regulator on a process with `more` seconds of dead time added."""
+        return Loop(self.process.delayed(more), self.regulator, self.path)
+
+    def with_gain(self, factor: float) -> "Loop":
+        """The same regulator on a process with `factor` times the gain."""
+        return Loop(self.process * factor, self.regulator, self.path)
+
+    def final_values(self, source: str) -> tuple[float, float]:
+        """What (y, u) tend to after a unit step of one input, by the final value theorem.
+
+        Raises LoopError for an unstable loop, which has no final values.
+        """
+        self._need_stable("final values")
+        if source not in INPUTS:
+            raise ResponseError(f"source = {source!r}; one of {', '.join(INPUTS)}")
+        c, p = self.polynomials, self.process
+        A, B, R, S, T = (row[-1] for row in (p.den, p.num, c.R, c.S, c.T))
+        below = R * A + S * B
+        if source == "disturbance":
+            w = self._path_times_den()
+            return R * w / below, -S * w / below
+        upper = {"reference": (T * B, T * A), "load": (R * B, -S * B), "noise": (-S * B, -S * A)}[source]
+        return upper[0] / below, upper[1] / below
+
+    def _path_times_den(self) -> float:
+        """lim W(s) A(s) for s to 0: finite also where W and the process share an integrator."""
+        if self.path is None:
+            raise ResponseError("a disturbance needs the path it takes to the output: Loop(process, regulator, path)")
+        total = 0.0
+        for term in self.path.terms if isinstance(self.path, DelayedSum) else (self.path,):
+            num, den = np.polymul(term.num, self.process.den), np.asarray(term.den)
+            while den[-1] == 0 and num[-1] == 0 and len(den) > 1:
+                num, den = num[:-1], den[:-1]
+            total += num[-1] / den[-1]
+        return float(total)
+
+    def _need_stable(self, what: str) -> None:
+        if not self.is_stable:
+            try:
+                count = f"{self.unstable_roots} roots in the right half plane"
+            except LoopError:
+                count = "a root on the imaginary axis"
+            raise LoopError(f"the loop is not stable ({count}): it has no {what}")
+
+    def settling_horizon(self) -> float:
+        """A time [s] after which the slowest mode has fallen by eleven decades; of a stable loop."""
+        self._need_stable("settling time")
+        return float(PATIENCE / self.decay_rate + 3 * self.process.delay)
+
+    def step(self, source: str = "reference", horizon: float | None = None) -> "StepResponse":
+        """y and u after a unit step of one input at t = 0 from rest, exact to rounding.
+
+        source: "reference", "load", "noise" or "disturbance". horizon [s]: up to when; without it, until the response
+        has settled, which needs a stable loop. An unstable loop can be simulated over a given horizon.
+        """
+        if horizon is None:
+            horizon = self.settling_horizon()
+        y, u = closed_loop_step(self.process, self.polynomials, source, float(horizon), self.path)
+        return StepResponse(self, source, float(horizon), y, u)
+
+
+@dataclass(frozen=True)
+class StepResponse:
+    """The response of a loop to a unit step of `source` at t = 0. y, u: signals, to be called with times [s].
+
+    Times beyond the horizon raise HorizonError.
+    """
+
+    loop: Loop
+    source: str
+    horizon: float
+    y: Signal
+    u: Signal
+
+    @cached_property
+    def final(self) -> tuple[float, float]:
+        """(y, u) for t to infinity. Raises LoopError for an unstable loop."""
+        return self.loop.final_values(self.source)
+
+    @property
+    def breakpoints(self) -> np.ndarray:
+        """The multiples of the dead time up to the horizon, where corners and jumps may lie [s]."""
+        L = self.loop.process.delay
+        return L * np.arange(1, int(self.horizon / L) + 1) if L else np.zeros(0)
+
+    def metrics(self) -> Any:
+        """Rise time, settling time, overshoot and peak of y, convention `exact`: see `loopbook.response.step_metrics`.
+
+        Raises LoopError for an unstable loop, NotSettled for a horizon that is too short.
+        """
+        from loopbook.response.step_metrics import exact
+
+        final = self.final[0]
+        return exact(self.y, final, min(self.horizon, self.y.end), breakpoints=self.breakpoints)
+
+    @cached_property
+    def error(self) -> Signal:
+        """What regulation should bring to zero: 1 - y for a reference step, -y for the others."""
+        settled = self.y.until(min(self.horizon, self.y.end))
+        return 1.0 - settled if self.source == "reference" else -settled
+
+    def _vanishing_error(self) -> Signal:
+        left = (1.0 if self.source == "reference" else 0.0) - self.final[0]
+        largest = max(abs(self.error.peak()[1]), abs(left))
+        if abs(left) > 1e-9 * max(largest, 1e-300):
+            raise LoopError(
+                f"the error tends to {left:.6g}, not to zero, so that its integral is infinite: the regulator has no "
+                "integral action that removes it"
+            )
+        rest = abs(float(self.error(self.error.end)))
+        if rest > SETTLED * largest:
+            raise HorizonError(
+                f"not settled at t = {self.horizon:g} s: the error is still {rest / largest:.2g} of its peak; take a "
+                "longer horizon, or none to have it chosen"
+            )
+        return self.error
+
+    def iae(self) -> float:
+        """The integral of |error| [y s]. Raises LoopError where it is infinite, HorizonError where it is cut short."""
+        return self._vanishing_error().integral_of_magnitude()
+
+    def ise(self) -> float:
+        """The integral of error^2 [y^2 s]. Raises as `iae`."""
+        return self._vanishing_error().integral_of_square()
+
+    def peak_input(self) -> tuple[float, float]:
+        """(time [s], value [u]) of the largest |u|; the value keeps its sign."""
+        return self.u.until(min(self.horizon, self.u.end)).peak()
+
+    def after(self, changes: Any, times: Any) -> tuple[np.ndarray, np.ndarray]:
+        """(y, u) at `times` [s] for an input that changes in steps: changes = ((time, size), ...), from rest.
+
+        The loop is linear, so this is the sum of shifted step responses: exact for any staircase of the input.
+        """
+        times = np.asarray(times, dtype=float)
+        y, u = np.zeros(times.shape), np.zeros(times.shape)
+        for when, size in changes:
+            y += size * self.y(times - when)
+            u += size * self.u(times - when)
+        return y, u

@@ -1,0 +1,147 @@
+"""A continuous process under a sampled regulator R u = T r - S y: poles, margins, responses between the samples.
+
+The margins are those of the loop transfer on the unit circle z = exp(jwh), all crossovers found (`circle_transfer`).
+The delay margin is a delay of the continuous process, resampled with the dead time it adds: not an angle divided by a
+frequency.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from loopbook.controllers.rst import Rst, zeros_of
+from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
+from loopbook.loop.transfer import LoopError
+from loopbook.loop.unit_circle import CircleTransfer
+from loopbook.process.sampled import SampledProcess, sample
+from loopbook.process.transfer_function import Process
+from loopbook.response.simulation import Simulation, simulate
+
+BORDER = 1e-9
+SEARCH = 12
+
+
+@dataclass(frozen=True)
+class SampledMargins:
+    """Margins of a stable sampled loop. gain, gain_low [-], phase [degrees], delay [s], Ms, Mt as in `margins.Margins`.
+
+    delay is the smallest dead time that, added to the continuous process, makes the loop unstable; inf if none up to
+    12 sampling intervals.
+    """
+
+    gain: float
+    gain_low: float
+    phase: float
+    delay: float
+    Ms: Peak
+    Mt: Peak
+
+    @property
+    def gain_decibels(self) -> float:
+        return float(20 * np.log10(self.gain))
+
+
+@dataclass(frozen=True)
+class SampledLoop:
+    """process: continuous, with dead time. regulator: an `Rst`; its h is the sampling interval."""
+
+    process: Process
+    regulator: Rst
+
+    @cached_property
+    def sampled(self) -> SampledProcess:
+        return sample(self.process, self.regulator.h)
+
+    @cached_property
+    def transfer(self) -> tuple[np.ndarray, np.ndarray]:
+        """(n, d) of the loop transfer S B/(R A), in z^-1."""
+        B, A = self.sampled.polynomials
+        return np.convolve(self.regulator.S, B), np.convolve(self.regulator.R, A)
+
+    @cached_property
+    def poles(self) -> np.ndarray:
+        """The zeros of A R + B S, the loop's poles in the z plane; those at the origin left out."""
+        n, d = self.transfer
+        total = np.zeros(max(len(n), len(d)))
+        total[: len(n)] += n
+        total[: len(d)] += d
+        return np.roots(total).astype(complex)
+
+    @cached_property
+    def is_stable(self) -> bool:
+        """All poles inside the unit circle, also those that process and regulator cancel."""
+        return bool((abs(self.poles) < 1 - BORDER).all())
+
+    def with_delay(self, more: float) -> "SampledLoop":
+        """The same regulator on a process with `more` seconds of dead time added."""
+        return SampledLoop(self.process.delayed(more), self.regulator)
+
+    def with_gain(self, factor: float) -> "SampledLoop":
+        """The same regulator on a process with `factor` times the gain."""
+        return SampledLoop(self.process * factor, self.regulator)
+
+    @cached_property
+    def on_circle(self) -> CircleTransfer:
+        """The loop transfer at z = exp(j angle)."""
+        n, d = self.transfer
+        B, _ = self.sampled.polynomials
+        zeros = np.concatenate([zeros_of(self.regulator.S), zeros_of(B)])
+        poles = np.concatenate([zeros_of(self.regulator.R), np.exp(self.process.poles * self.regulator.h)])
+        return CircleTransfer(n, d, zeros, poles)
+
+    def at(self, angle: np.ndarray) -> np.ndarray:
+        """The loop transfer at z = exp(j angle), angle = w h [rad]."""
+        return self.on_circle(angle)
+
+    @cached_property
+    def gain_crossovers(self) -> np.ndarray:
+        """The w in (0, pi/h) [rad/s] with |G| = 1, ascending."""
+        return self.on_circle.gain_crossovers / self.regulator.h
+
+    @cached_property
+    def phase_crossovers(self) -> np.ndarray:
+        """The w in [0, pi/h] [rad/s] where G is real and negative, ascending; both ends where they are."""
+        return self.on_circle.phase_crossovers / self.regulator.h
+
+    def margins(self) -> SampledMargins:
+        """All margins. Raises LoopError for an unstable loop, which has none."""
+        if not self.is_stable:
+            raise LoopError(f"the loop is unstable (a pole at |z| = {abs(self.poles).max():.6g}) and has no margins")
+        h = self.regulator.h
+        Ms, Mt = sampled_peaks(self.on_circle)
+        factors = 1 / abs(self.at(self.phase_crossovers * h))
+        factors[factors < BORDER] = 0.0  # an integrator: the loop transfer is infinite at z = 1
+        at_gain = np.degrees(np.angle(-self.at(self.gain_crossovers * h)))
+        return SampledMargins(
+            gain=float(factors[factors > 1].min(initial=np.inf)),
+            gain_low=float(factors[factors < 1].max(initial=0.0)),
+            phase=float(min(at_gain, key=abs, default=np.inf)),
+            delay=self._delay_margin(),
+            Ms=Peak(Ms.value, Ms.w / h),
+            Mt=Peak(Mt.value, Mt.w / h),
+        )
+
+    def _delay_margin(self) -> float:
+        """The first added delay at which a pole reaches the unit circle, between grid points by root finding."""
+        from scipy.optimize import brentq
+
+        def beyond(delay: float) -> float:
+            return float(abs(self.with_delay(delay).poles).max(initial=0.0)) - 1
+
+        h = self.regulator.h
+        steps = np.linspace(0, SEARCH * h, 8 * SEARCH + 1)
+        for a, b in pairwise(steps):
+            if beyond(b) > 0:
+                return float(brentq(beyond, a, b, xtol=1e-12 * h))
+        return np.inf
+
+    def step(self, source: str, steps: int, low: float = -np.inf, high: float = np.inf) -> Simulation:
+        """A unit step at t = 0 of "reference", "load" (at the process input), "noise" (on the measurement) or "output"
+        (added to the process output), over `steps` sampling intervals, with the actuator's limits low, high known to
+        the regulator.
+        """
+        if source not in ("reference", "load", "noise", "output"):
+            raise LoopError(f"source = {source!r}; one of reference, load, noise, output")
+        return simulate(self.process, self.regulator.controller(low, high), self.regulator.h, steps, **{source: 1.0})

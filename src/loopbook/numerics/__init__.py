@@ -1,0 +1,1 @@
+"""Numbers without control: exact fractions, polynomials, state space, signals, delay equations."""

@@ -1,0 +1,1 @@
+"""Pole placement: in numbers, exact, and for a sampled plant."""

@@ -1,0 +1,212 @@
+"""A process: a rational transfer function times an exact dead time.
+
+    G(s) = (b_0 s^m + ... + b_m) / (a_0 s^n + ... + a_n) * exp(-L s),   m <= n, L >= 0
+
+Coefficients are real and in descending powers of s, time is in seconds. The dead time is never approximated; the only
+function that writes a Padé approximation is `Process.to_control`, on request.
+"""
+
+import math
+import numbers
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from loopbook.numerics import horner
+
+
+class ProcessError(ValueError):
+    """A transfer function that cannot be a process; the message says which number and why."""
+
+
+def coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
+    """Descending real coefficients without leading zeros; ProcessError for anything else.
+
+    >>> coefficients([0, 2, 1], "num")
+    (2.0, 1.0)
+    """
+    row = np.asarray(values).tolist()
+    row = row if isinstance(row, list) else [row]
+    if not row or isinstance(row[0], list):
+        raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
+    if not all(isinstance(c, numbers.Real) for c in row):
+        raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers")
+    row = [float(c) for c in row]
+    if not all(map(math.isfinite, row)):
+        raise ProcessError(f"{name} = {values!r}: the coefficients must be finite")
+    while len(row) > 1 and not row[0]:
+        del row[0]
+    return tuple(row) if row != [0.0] else (0.0,)
+
+
+@dataclass(frozen=True)
+class Process:
+    """A proper rational transfer function with dead time, y/u.
+
+    num, den: real coefficients in descending powers of s, lengths m+1 <= n+1. delay: dead time L [s], >= 0.
+    Calling it evaluates num/den * exp(-delay s) at complex s [rad/s] of any shape.
+    Raises ProcessError where num/den is improper, den is zero, a coefficient is not finite or delay is negative.
+
+    >>> tank = Process([1], [35, 12, 1], delay=2)
+    >>> tank.static_gain, tank.order
+    (1.0, 2)
+    >>> round(float(abs(tank(1j * 0.1))), 6)
+    0.732743
+    """
+
+    num: tuple[float, ...]
+    den: tuple[float, ...]
+    delay: float = 0.0
+
+    def __post_init__(self):
+        object.__setattr__(self, "num", coefficients(self.num, "num"))
+        object.__setattr__(self, "den", coefficients(self.den, "den"))
+        if self.den == (0.0,):
+            raise ProcessError("den is zero: a transfer function needs a denominator")
+        if len(self.num) > len(self.den):
+            raise ProcessError(
+                f"num has degree {len(self.num) - 1}, den degree {len(self.den) - 1}: an improper transfer function "
+                "differentiates its input and is no process; add poles or lower the degree of num"
+            )
+        if not isinstance(self.delay, numbers.Real) or not math.isfinite(self.delay):
+            raise ProcessError(f"delay = {self.delay!r}: a finite number of seconds is expected")
+        if self.delay < 0:
+            raise ProcessError(f"delay = {self.delay!r} s is negative: the output would precede its cause")
+        object.__setattr__(self, "delay", float(self.delay))
+
+    @classmethod
+    def fopdt(cls, gain: float, time_constant: float, delay: float) -> "Process":
+        """First order plus dead time, G(s) = gain / (time_constant s + 1) * exp(-delay s).
+
+        gain [y/u], time_constant [s] > 0, delay [s] >= 0.
+        """
+        if not time_constant > 0:
+            raise ProcessError(f"time_constant = {time_constant!r} s must be positive")
+        return cls((gain,), (time_constant, 1.0), delay)
+
+    @classmethod
+    def integrating(cls, gain: float, delay: float = 0.0, time_constant: float = 0.0) -> "Process":
+        """Integrator plus dead time, G(s) = gain / (s (time_constant s + 1)) * exp(-delay s); gain in [y/(u s)]."""
+        if time_constant < 0:
+            raise ProcessError(f"time_constant = {time_constant!r} s must not be negative")
+        return cls((gain,), (time_constant, 1.0, 0.0), delay)
+
+    @classmethod
+    def from_control(cls, system: Any, delay: float = 0.0) -> "Process":
+        """From a continuous single-input single-output `control.TransferFunction`, which holds no dead time itself."""
+        if getattr(system, "ninputs", None) != 1 or system.noutputs != 1:
+            raise ProcessError("from_control takes a system with one input and one output")
+        if system.dt not in (0, None):
+            raise ProcessError(f"from_control takes a continuous system, got one with dt = {system.dt}")
+        return cls(tuple(system.num[0][0]), tuple(system.den[0][0]), delay)
+
+    def to_control(self, pade: int | None = None) -> Any:
+        """As a `control.TransferFunction`.
+
+        pade: order of the Padé approximation of the dead time. Without it a process with dead time is refused, as
+        python-control has no form for it.
+        """
+        import control
+
+        rational = control.tf(list(self.num), list(self.den))
+        if not self.delay:
+            return rational
+        if pade is None:
+            raise ProcessError(
+                f"python-control cannot hold the dead time {self.delay} s: ask for pade=order, or take .rational"
+            )
+        return rational * control.tf(*control.pade(self.delay, pade))
+
+    def __call__(self, s: Any) -> Any:
+        s = np.asarray(s)
+        return horner.value(self.num, s) / horner.value(self.den, s) * np.exp(-self.delay * s)
+
+    def __mul__(self, other: "Process | float") -> "Process":
+        if isinstance(other, Process):
+            num, den = np.polymul(self.num, other.num), np.polymul(self.den, other.den)
+            return Process(tuple(num), tuple(den), self.delay + other.delay)
+        if isinstance(other, numbers.Real):
+            return Process(tuple(float(other) * np.asarray(self.num)), self.den, self.delay)
+        return NotImplemented
+
+    __rmul__ = __mul__
+
+    def __add__(self, other: "Process | DelayedSum") -> "DelayedSum":
+        return DelayedSum((self,)) + other
+
+    @property
+    def rational(self) -> "Process":
+        """The same process without its dead time."""
+        return Process(self.num, self.den)
+
+    def delayed(self, more: float) -> "Process":
+        """The same process with `more` seconds of dead time added."""
+        return Process(self.num, self.den, self.delay + more)
+
+    @property
+    def order(self) -> int:
+        """The degree of den."""
+        return len(self.den) - 1
+
+    @property
+    def relative_degree(self) -> int:
+        """The degree of den less that of num; 0 where the input acts on the output at once."""
+        return len(self.den) - len(self.num)
+
+    @property
+    def static_gain(self) -> float:
+        """G(0): infinite where the process integrates, and taken after common factors s are divided out."""
+        num, den = list(self.num), list(self.den)
+        while len(num) > 1 and len(den) > 1 and num[-1] == den[-1] == 0:
+            num.pop(), den.pop()
+        return math.copysign(math.inf, num[-1]) if den[-1] == 0 else num[-1] / den[-1]
+
+    @cached_property
+    def poles(self) -> np.ndarray:
+        """The roots of den, complex, shape (order,)."""
+        return np.roots(self.den).astype(complex)
+
+    @cached_property
+    def zeros(self) -> np.ndarray:
+        """The roots of num, complex."""
+        return np.roots(self.num).astype(complex)
+
+    def step(self, times: Any, amplitude: float = 1.0) -> np.ndarray:
+        """The response to a step of the input at t = 0 from rest, exact to rounding, at any `times` [s].
+
+        Zero for t < delay. Shape of `times`.
+
+        >>> Process.fopdt(2, 3, 1).step([0.5, 4.0])
+        array([0.        , 1.26424112])
+        """
+        from loopbook.numerics.step_response import open_loop_step
+
+        times = np.asarray(times, dtype=float)
+        horizon = max(float(times.max(initial=0.0)) - self.delay, 0.0)
+        return amplitude * open_loop_step(self.rational, horizon).delayed(self.delay)(times)
+
+
+@dataclass(frozen=True)
+class DelayedSum:
+    """A sum of processes with dead times of their own: the path of a disturbance that enters elsewhere.
+
+    Calling it evaluates the sum at complex s.
+
+    >>> float(DelayedSum((Process([1], [1, 1], 2), Process([1], [1], 0)))(0.0))
+    2.0
+    """
+
+    terms: tuple[Process, ...]
+
+    def __call__(self, s: Any) -> Any:
+        return sum(term(s) for term in self.terms)
+
+    def __add__(self, other: "Process | DelayedSum") -> "DelayedSum":
+        if isinstance(other, Process):
+            return DelayedSum((*self.terms, other))
+        if isinstance(other, DelayedSum):
+            return DelayedSum(self.terms + other.terms)
+        return NotImplemented

@@ -1,0 +1,1 @@
+"""A logged file: its cells, how it is read, the steps in it."""

@@ -1,0 +1,1 @@
+"""In time: the closed loop's equations, simulation with limits, step metrics."""

@@ -1,0 +1,190 @@
+"""A sampled controller against the exact continuous process: what runs on the plant, step by step.
+
+At each instant kh the controller is called with the measurement and the reference and its output is held for h
+seconds; the process moves on exactly (`sampling`), with a dead time of any fraction of h. The controller is any object
+with
+
+    u = controller.step(y, reference)
+
+so it may switch, saturate, be reset or change its parameters. Between the samples the response is known too.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from loopbook.numerics.method_of_steps import DEGREE, DelayEquation, cell_operator, graded_mesh, radau
+from loopbook.numerics.signals import Signal
+from loopbook.process.sampled import SampledProcess, held, sample
+from loopbook.process.transfer_function import Process
+
+Course = float | Sequence[float] | np.ndarray | Callable[[float], float]
+
+
+class SimulationError(ValueError):
+    """A simulation that cannot be run as asked; the message says what to change."""
+
+
+class Controller(Protocol):
+    """Called once per sampling instant with the measurement [y] and the reference [y]; returns the output [u]."""
+
+    def step(self, y: float, reference: float) -> float: ...
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What happened at the instants t = 0, h, 2h, ...; arrays of one length.
+
+    t [s]. y: the process output. measured: what the controller saw (with noise). u: what the process got, after
+    saturation. demanded: what the controller asked for. reference, load: as given.
+    """
+
+    t: np.ndarray
+    y: np.ndarray
+    measured: np.ndarray
+    u: np.ndarray
+    demanded: np.ndarray
+    reference: np.ndarray
+    load: np.ndarray
+    sampled: SampledProcess
+    states: np.ndarray
+    delayed: np.ndarray
+    output: np.ndarray
+
+    @cached_property
+    def between(self) -> Signal:
+        """y in continuous time, also between the samples, up to the last instant."""
+        plant, h, tau = self.sampled.plant, self.sampled.h, self.sampled.tau
+        pieces = [(0.0, tau, 1), (tau, h - tau, 0)] if tau else [(0.0, h, 0)]
+        early, older = held(plant, tau)
+        steps = len(self.t) - 1
+        edges, rows = [], []
+        for start, length, age in pieces:
+            # delayed[k] holds the inputs acting in [kh, kh + tau) and [kh + tau, kh + h)
+            v = self.delayed[:steps, 0 if age else 1]
+            x = self.states[:steps]
+            if start:
+                x = x @ early.T + np.outer(self.delayed[:steps, 0], older[:, 0])
+            mesh = graded_mesh(plant.A, length)
+            for a, d in zip(mesh[:-1], np.diff(mesh), strict=True):
+                zero = np.zeros(len(plant.A))
+                equation = DelayEquation(plant.A, zero, plant.B[:, 0], plant.C, np.zeros(1), np.zeros(1), 0.0)
+                G = cell_operator(equation, float(d))
+                n = len(plant.A)
+                nodes = np.einsum("pij,kj->kpi", G[:, :, :n], x) + np.einsum("pi,k->kpi", G[:, :, -1], v)
+                values = np.concatenate([x[:, None, :], nodes], axis=1) @ plant.C[0]
+                values = values + (plant.D[0, 0] * v + self.output[:steps])[:, None]
+                edges.append(self.t[:steps] + start + a)
+                rows.append(values @ radau()[2].T)
+                x = nodes[:, -1]
+        order = np.argsort(np.concatenate(edges), kind="stable")
+        all_edges = np.append(np.concatenate(edges)[order], self.t[-1])
+        return Signal(all_edges, np.concatenate(rows)[order].reshape(-1, DEGREE + 1))
+
+    @property
+    def held_input(self) -> Signal:
+        """u in continuous time: a staircase."""
+        return Signal(self.t, self.u[:-1, None])
+
+
+def _course(name: str, value: Course, t: np.ndarray) -> np.ndarray:
+    if callable(value):
+        row = np.array([float(value(float(time))) for time in t])
+    else:
+        row = np.asarray(value, dtype=float)
+        if row.ndim == 0:
+            row = np.full(len(t), float(row))
+    if row.shape != t.shape:
+        raise SimulationError(f"{name} has {row.size} values, the simulation {len(t)} instants: give one for each")
+    if not np.isfinite(row).all():
+        raise SimulationError(f"{name} is not finite at instant {int(np.flatnonzero(~np.isfinite(row))[0])}")
+    return row
+
+
+def simulate(
+    process: Process,
+    controller: Controller,
+    h: float,
+    steps: int,
+    *,
+    reference: Course = 0.0,
+    load: Course = 0.0,
+    noise: Course = 0.0,
+    output: Course = 0.0,
+    limits: tuple[float, float] = (-math.inf, math.inf),
+    u_before: float = 0.0,
+) -> Simulation:
+    """Run the controller for `steps` sampling intervals of h seconds; `steps` + 1 instants are returned.
+
+    reference, load (added to the process input, held over h), noise (added to the measurement), output (added to the
+    process output): each a number, one number per instant, or a function of the time [s]. limits: the actuator's range
+    (low, high) [u], acting after the controller. u_before: the constant input before t = 0, with the process settled
+    there; needs a finite static gain if not zero.
+    Raises SimulationError for courses of another length or not finite, empty limits, a controller that returns no
+    finite number, and a process that acts at once (no dead time, relative degree 0): its output would depend on the
+    input that is computed from it.
+
+    >>> class Half:
+    ...     def step(self, y, reference):
+    ...         return 0.5 * (reference - y)
+    >>> run = simulate(Process([1], [1, 0], delay=1.5), Half(), h=1.0, steps=4, reference=1.0)
+    >>> run.y
+    array([0.    , 0.    , 0.25  , 0.75  , 1.1875])
+    """
+    if not (isinstance(steps, int | np.integer) and steps >= 1):
+        raise SimulationError(f"steps = {steps!r}: a whole number of sampling intervals, 1 or more, is expected")
+    low, high = limits
+    if not low < high:
+        raise SimulationError(f"limits = {limits!r}: the lower limit must be below the upper one")
+    plant = sample(process, h)
+    whole, now = plant.whole, plant.tau == 0
+    D = float(plant.plant.D[0, 0])
+    if D and whole == 0 and now:
+        raise SimulationError("the process acts at once (no dead time, relative degree 0): an algebraic loop; delay it")
+    t = h * np.arange(steps + 1)
+    r, d, n, w = (
+        _course(*pair, t) for pair in (("reference", reference), ("load", load), ("noise", noise), ("output", output))
+    )
+    Phi, newer, older = plant.matrices
+    C = plant.plant.C[0]
+    x = _settled(process, plant, u_before)
+    history = np.full(steps + whole + 3, u_before)  # what enters the dead time, from (whole + 1) intervals before t = 0
+    first = whole + 1
+    y, u, v = np.empty(steps + 1), np.empty(steps + 1), np.empty(steps + 1)
+    states, delayed = np.empty((steps + 1, len(x))), np.empty((steps + 1, 2))
+    onwards, from_here = np.column_stack([Phi, older, newer]), np.empty(len(x) + 2)
+    for k in range(steps + 1):
+        states[k] = x
+        at_once = history[first + k - whole] if now and whole else history[k]
+        y[k] = C @ x + (D * at_once if D else 0.0) + w[k]
+        v[k] = _asked(controller, y[k] + n[k], r[k], t[k])
+        u[k] = min(max(v[k], low), high)
+        history[first + k] = u[k] + d[k]
+        delayed[k] = history[k], history[k + 1]
+        from_here[: len(x)], from_here[len(x) :] = x, history[k : k + 2]
+        x = onwards @ from_here
+    return Simulation(t, y, y + n, u, v, r, d, plant, states, delayed, w)
+
+
+def _settled(process: Process, plant: SampledProcess, u_before: float) -> np.ndarray:
+    A, B = plant.plant.A, plant.plant.B[:, 0]
+    if not u_before:
+        return np.zeros(len(A))
+    if not math.isfinite(process.static_gain):
+        raise SimulationError(f"u_before = {u_before!r}: an integrating process has no rest there; start from 0")
+    return np.linalg.solve(A, -B * u_before)
+
+
+def _asked(controller: Controller, y: float, reference: float, t: float) -> float:
+    value = controller.step(float(y), float(reference))
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise SimulationError(f"the controller returned {value!r} at t = {t:g} s: a finite number is expected")
+    return number

@@ -1,0 +1,1 @@
+"""Building: what is to be done, jobs, the judgement at the end, watching, verifying."""

@@ -1,0 +1,138 @@
+"""The work of a build: how many kernels, what each job gave, how it is ended."""
+
+import math
+import os
+import signal
+import threading
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from notebook_reports.build.job import Done, Job, Wanted, do, repeat
+from notebook_reports.project import atomic
+from notebook_reports.project.console import Console
+from notebook_reports.project.failures import Failure, everything, summary
+from notebook_reports.project.project import Project
+from notebook_reports.run import warm
+from notebook_reports.run.quick_imports import import_nbformat
+from notebook_reports.run.surroundings import drop_stale_bytecode, environment
+from notebook_reports.run.warm import Warm
+
+OK, FAILED, USAGE, ENVIRONMENT, INTERRUPTED = 0, 1, 2, 3, 130
+
+WORTH_WARMING = 2  # notebooks
+
+
+@dataclass
+class Outcome:
+    """How a build ended. code: the exit code. done: one entry per notebook that was worked on."""
+
+    code: int
+    done: list[Done] = field(default_factory=list)
+    failures: list[Failure] = field(default_factory=list)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _work(
+    project: Project, work: list[Job], wanted: Wanted, jobs: int, console: Console, ready: str = ""
+) -> list[Done]:
+    """Do the jobs, the longest first so that none is left alone at the end. Raises KeyboardInterrupt.
+
+    What never ran goes first, the last chapters before the others: they build on most. ready: see `warm`.
+    """
+    if not work:
+        return []
+    work = sorted(work, key=lambda j: j.notebook.id, reverse=True)
+    work.sort(key=lambda j: -(j.stamp.seconds if j.stamp else math.inf))
+    done: list[Done] = []
+    with (
+        _interruptible(),
+        _kernels(project, sum(bool(j.run_because) for j in work), ready),
+        console.progress(len(work)),
+        ThreadPoolExecutor(min(jobs, len(work))) as pool,
+    ):
+        waiting: dict[Future, Job] = {pool.submit(do, project, job, wanted): job for job in work}
+        try:
+            while waiting:
+                finished, _ = wait(waiting, return_when=FIRST_COMPLETED)
+                for future in finished:
+                    job = waiting.pop(future)
+                    done.append(_result(future, job))
+                    console.done(done[-1], job.reasons)
+        except KeyboardInterrupt:
+            for future in waiting:
+                future.cancel()
+            _kill()
+            raise
+    return done
+
+
+@contextmanager
+def _kernels(project: Project, number: int, ready: str = ""):
+    """Import what runs notebooks, once, before the threads; meanwhile warm up what several kernels are forked from."""
+    if not number:
+        yield
+        return
+    drop_stale_bytecode(project.root)
+    worth = number >= WORTH_WARMING and warm.possible()
+    warming = Warm(environment(project.root, project.cache), ready) if worth else None
+    import_nbformat()
+    from notebook_reports.run import kernels, run  # noqa: F401
+
+    with kernels.forked_from(warming):
+        yield
+
+
+def _result(future: Future, job: Job) -> Done:
+    try:
+        return future.result()
+    except KeyboardInterrupt:
+        raise
+    except Exception as error:
+        what = f"{type(error).__name__}: {error} (a fault of the pipeline, please report it)"
+        return Done(job.notebook, 0, [Failure(job.notebook.id, what, repeat=repeat(job))])
+
+
+def _kill() -> None:
+    import sys
+
+    kernels = sys.modules.get("notebook_reports.run.kernels")
+    if kernels:
+        kernels.kill_all()
+
+
+@contextmanager
+def _interruptible():
+    """SIGTERM ends a build as Ctrl-C does."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _finish(project: Project, done: list[Done], failures: list[Failure], todo: list[Job], console: Console) -> Outcome:
+    idle = len(todo) - len(done)
+    if idle > 0:
+        console.line(f"{idle} notebook{'s' if idle > 1 else ''} up to date")
+    console.warnings(done)
+    path = project.cache / "failures.txt"
+    if failures:
+        atomic.write(path, everything(failures).encode())
+    else:
+        atomic.remove(path)
+    for line in summary(failures):
+        console.line(line)
+    environment = any(d.environment for d in done)
+    return Outcome(ENVIRONMENT if environment else FAILED if failures else OK, done, failures)

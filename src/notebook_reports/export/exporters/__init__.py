@@ -1,0 +1,1 @@
+"""The nbconvert exporters and their templates."""

@@ -1,0 +1,90 @@
+"""What the exporters share."""
+
+import functools
+from pathlib import Path
+from typing import Any
+
+from nbconvert.exporters.templateexporter import TemplateExporter
+from traitlets import Bool, Unicode, default
+
+from notebook_reports.export.errors import ExportError, Problem
+from notebook_reports.export.formulas import as_mathml, as_text, as_typst
+from notebook_reports.export.model import Display, Math, Report, walk
+from notebook_reports.export.read.notebook import read
+from notebook_reports.export.write.typst_engine import TypstFailed, cell_finder, explain
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+CONTENTS_FROM = 3
+
+
+class ReportExporter(TemplateExporter):
+    """What the PDF and the HTML exporter share: the notebook read into a report, and its particulars.
+
+    `resources["loopbook"]` may hold name, title, document, chapter, language and author; the traits are the defaults.
+    """
+
+    document = Unicode("", help="The document a notebook belongs to; equation anchors carry it.").tag(config=True)
+    chapter = Unicode("", help="The chapter named in the title block and the running head.").tag(config=True)
+    language = Unicode("en", help="Language of the text, for readers and hyphenation.").tag(config=True)
+    author = Unicode("loopbook", help="Author in the metadata.").tag(config=True)
+    strict_alt = Bool(False, help="Fail where a picture has no alternative text.").tag(config=True)
+
+    export_from_notebook = None
+
+    @default("extra_template_basedirs")
+    def _own_templates(self):
+        return [str(TEMPLATES)]
+
+    def report(self, nb: Any, resources: dict[str, Any]) -> Report:
+        """Read the notebook. Raises ExportError."""
+        told = {key: value for key, value in resources.get("loopbook", {}).items() if value != ""}
+        metadata = resources.get("metadata") or {}
+        particulars = {
+            "name": metadata.get("name") or "notebook",
+            "document": self.document,
+            "chapter": self.chapter,
+            "language": self.language,
+            "author": self.author,
+            "folder": Path(metadata["path"]) if metadata.get("path") is not None else None,
+            "strict_alt": self.strict_alt,
+        }
+        return read(nb, **{**particulars, **told})
+
+
+@functools.cache
+def support_files() -> dict[str, bytes]:
+    """The file beside main.typ that is the same for every report."""
+    return {"report.typ": (TEMPLATES / "loopbook_pdf" / "report.typ").read_bytes()}
+
+
+def contents_depth(report: Report) -> int:
+    """How many levels of headings the table of contents shows; 0 for none."""
+    levels = [heading.level for heading in report.headings]
+    if len(levels) < CONTENTS_FROM:
+        return 0
+    return 2 if sum(level <= 2 for level in levels) <= 30 else 1
+
+
+def as_export_error(error: TypstFailed, name: str) -> ExportError:
+    """The engine's complaints as problems of cells, each once."""
+    find = cell_finder(error.source, error.files)
+    explained = dict.fromkeys(explain(diagnostic, find) for diagnostic in error.diagnostics)
+    return ExportError(name, [Problem(cell, text) for cell, text in explained])
+
+
+def problems(report: Report, form: str) -> list[Problem]:
+    """Every formula of a report that the converter to "typst" or "mathml" refuses."""
+    from notebook_reports.mathematics import MathError
+
+    convert = as_typst if form == "typst" else as_mathml
+    found = []
+    for cell in report.cells:
+        for node in walk(cell):
+            if isinstance(node, Math | Display):
+                try:
+                    convert(node.latex, isinstance(node, Display))
+                    as_text(node.latex)
+                except MathError as error:
+                    found.append(Problem(cell.number, f"a formula: {error}"))
+    return found

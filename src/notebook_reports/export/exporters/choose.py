@@ -1,0 +1,73 @@
+"""Executed notebooks to reports: PDF through Typst, HTML that needs no network.
+
+    pdf = export(notebook, "pdf", name="double_tank/03_pole_placement", document="double-tank")
+
+What a report cannot show is an `ExportError` that names the notebook and the cell. The heavy modules are imported
+when the first report is made.
+"""
+
+import functools
+from pathlib import Path
+from typing import Any
+
+from notebook_reports.export.errors import ExportError, Problem
+
+FORMATS = ("pdf", "html")
+ENGINES = ("typst", "latex")
+
+__all__ = ["ENGINES", "FORMATS", "ExportError", "Problem", "export"]
+
+
+def export(
+    nb: Any,
+    format: str,
+    *,
+    name: str,
+    title: str = "",
+    document: str = "",
+    chapter: str = "",
+    language: str = "en",
+    engine: str = "typst",
+    assets: Path | None = None,
+    strict_alt: bool = True,
+) -> bytes:
+    """The report of one executed notebook.
+
+    nb: a notebook node of nbformat 4. format: "pdf" or "html". name: "folder/notebook", as errors and links call it.
+    title: default the first top heading. document, chapter: for the title block and the running head. engine: "typst",
+    or "latex" where TeX and pandoc are installed. assets: the folder where relative images are looked up.
+    strict_alt: a picture without alternative text is an error.
+    Equal input gives equal bytes. Raises ExportError; ValueError for an unknown format or engine.
+    """
+    if format not in FORMATS:
+        raise ValueError(f"format is one of {', '.join(FORMATS)}, got {format!r}")
+    if engine not in ENGINES:
+        raise ValueError(f"engine is one of {', '.join(ENGINES)}, got {engine!r}")
+    kind = "latex" if format == "pdf" and engine == "latex" else format
+    told = {
+        "name": name,
+        "title": title,
+        "document": document,
+        "chapter": chapter,
+        "language": language,
+        "strict_alt": strict_alt,
+    }
+    metadata = {"name": name.rpartition("/")[2], **({} if assets is None else {"path": str(assets)})}
+    output, _ = _exporter(kind).from_notebook_node(nb, {"metadata": metadata, "loopbook": told})
+    return output.encode() if isinstance(output, str) else output
+
+
+@functools.cache
+def _exporter(kind: str) -> Any:
+    """One exporter of each kind for the whole process: making one costs more than a report."""
+    if kind == "pdf":
+        from notebook_reports.export.exporters.pdf import PdfExporter
+
+        return PdfExporter()
+    if kind == "html":
+        from notebook_reports.export.exporters.html import HtmlExporter
+
+        return HtmlExporter()
+    from notebook_reports.export.exporters.latex import LatexPdfExporter
+
+    return LatexPdfExporter()

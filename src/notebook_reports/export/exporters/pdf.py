@@ -1,0 +1,69 @@
+"""The PDF exporter: ``jupyter nbconvert --to loopbook_pdf any.ipynb``.
+
+A notebook is read into a report, the template ``loopbook_pdf`` writes it as Typst source, and the typst package
+compiles that in this process to PDF/A-2a and PDF/UA-1. Nothing outside Python is needed.
+"""
+
+from typing import Any
+
+from traitlets import default
+
+from notebook_reports.export.errors import ExportError
+from notebook_reports.export.exporters.base import (
+    ReportExporter,
+    as_export_error,
+    contents_depth,
+    problems,
+    support_files,
+)
+from notebook_reports.export.model import Report
+from notebook_reports.export.write.typst import IMPORT, TypstWriter
+from notebook_reports.export.write.typst_engine import TypstFailed, compile_turning
+from notebook_reports.export.write.typst_text import literal
+
+"""Headings from which on a report has a table of contents."""
+
+
+class PdfExporter(ReportExporter):
+    """Notebook to PDF. Raises ExportError where the notebook holds what the page cannot show."""
+
+    export_from_notebook = "PDF report (loopbook)"
+    output_mimetype = "application/pdf"
+
+    @default("file_extension")
+    def _file_extension_default(self):
+        return ".pdf"
+
+    @default("template_extension")
+    def _template_extension_default(self):
+        return ".typ.j2"
+
+    @default("template_name")
+    def _template_name_default(self):
+        return "loopbook_pdf"
+
+    def report(self, nb: Any, resources: dict[str, Any]) -> Report:
+        """The notebook read, its formulas known to be understood. Raises ExportError."""
+        report = super().report(nb, resources)
+        found = problems(report, "typst")
+        if found:
+            raise ExportError(report.name, found)
+        return report
+
+    def source(self, report: Report, turned: frozenset[str] = frozenset()) -> tuple[str, dict[str, bytes]]:
+        """The Typst source of a report and the files beside it. turned: tables that get a landscape page."""
+        writer = TypstWriter(report.name, turned=turned)
+        told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": literal}
+        text = self.template.render(**told, functions=IMPORT)
+        return text, {**support_files(), **writer.files}
+
+    def from_notebook_node(self, nb, resources=None, **kw):
+        """The PDF's bytes, and the resources."""
+        resources = self._init_resources(resources)
+        report = self.report(nb, resources)
+        try:
+            pdf = compile_turning(lambda turned: self.source(report, turned))
+        except TypstFailed as error:
+            raise as_export_error(error, report.name) from None
+        resources["output_extension"] = self.file_extension
+        return pdf, resources

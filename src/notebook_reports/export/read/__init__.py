@@ -1,0 +1,1 @@
+"""Cells and outputs of a notebook, read into a report's model."""

@@ -1,0 +1,106 @@
+"""Pictures of a notebook: data URIs, attachments, files beside it."""
+
+import base64
+import binascii
+import re
+from pathlib import Path
+from urllib.parse import unquote, unquote_to_bytes
+
+from notebook_reports.export.errors import CannotShow
+from notebook_reports.export.model import Picture
+
+KINDS = {
+    "image/svg+xml": "svg",
+    "image/png": "png",
+    "image/jpeg": "jpg",
+    "image/gif": "gif",
+    "image/webp": "webp",
+}
+MIME = {kind: mime for mime, kind in KINDS.items()}
+_SUFFIXES = {".svg": "svg", ".png": "png", ".jpg": "jpg", ".jpeg": "jpg", ".gif": "gif", ".webp": "webp"}
+_FIRST_BYTES = {"png": b"\x89PNG\r\n\x1a\n", "jpg": b"\xff\xd8\xff", "gif": b"GIF8", "webp": b"RIFF"}
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+:")
+
+
+def from_bundle(mime: str, content: str, alt: str, width: float | None = None) -> Picture:
+    """A picture of an output or attachment: SVG as text, the others in base64."""
+    kind = KINDS[mime]
+    content = "".join(content) if isinstance(content, list) else content
+    if kind == "svg" and "<" in content:
+        data = content.encode()
+    else:
+        data = _base64(content)
+    return checked(Picture(data, kind, alt, width))
+
+
+def from_url(url: str, alt: str, attachments: dict[str, dict[str, str]], folder: Path | None) -> Picture:
+    """The picture a Markdown cell names. Raises CannotShow where there is none."""
+    if url.startswith("data:"):
+        mime, _, content = url[5:].partition(",")
+        mime, *options = mime.split(";")
+        if mime not in KINDS:
+            raise CannotShow(f"an image of type {mime or 'unknown'}; use SVG, PNG, JPEG, GIF or WebP")
+        data = _base64(unquote(content)) if "base64" in options else unquote_to_bytes(content)
+        return checked(Picture(data, KINDS[mime], alt))
+    if url.startswith("attachment:"):
+        name = unquote(url[len("attachment:") :])
+        bundle = attachments.get(name) or {}
+        for mime in KINDS:
+            if mime in bundle:
+                return from_bundle(mime, bundle[mime], alt)
+        raise CannotShow(f"the image attachment {name!r} is missing; paste the image into the cell again")
+    if _SCHEME.match(url) or url.startswith("//"):
+        raise CannotShow(f"the image {url} is on the network; save it beside the notebook and name the file")
+    if folder is None:
+        raise CannotShow(f"the image {url} is a file, but the notebook's folder is not known")
+    path = Path(folder) / unquote(url)
+    kind = _SUFFIXES.get(path.suffix.lower())
+    if kind is None:
+        raise CannotShow(f"the image {url} is none of {', '.join(sorted(_SUFFIXES))}")
+    try:
+        return checked(Picture(path.read_bytes(), kind, alt))
+    except OSError:
+        raise CannotShow(f"no image {url}; it is looked for beside the notebook") from None
+
+
+def checked(picture: Picture) -> Picture:
+    """The same picture, if its bytes are what its type says."""
+    if picture.kind == "svg":
+        picture.data = _clean_svg(picture.data)
+    elif not picture.data.startswith(_FIRST_BYTES[picture.kind]):
+        raise CannotShow(f"an image that says it is {picture.kind.upper()} and is not")
+    return picture
+
+
+def _base64(content: str) -> bytes:
+    try:
+        return base64.b64decode("".join(content.split()), validate=True)
+    except binascii.Error:
+        raise CannotShow("an image whose data is damaged; run the cell again") from None
+
+
+def _clean_svg(data: bytes) -> bytes:
+    """The drawing from its <svg> tag on. Raises CannotShow where it is not well-formed or needs other files."""
+    from xml.etree import ElementTree
+
+    try:
+        text = data.decode()
+        root = ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>\[]*(\[[^\]]*\])?>", "", text))
+    except (UnicodeDecodeError, ElementTree.ParseError) as error:
+        raise CannotShow(f"an SVG image that cannot be read: {error}") from None
+    if not root.tag.endswith("svg"):
+        raise CannotShow(f"an SVG image whose first element is <{root.tag}>")
+    for element in root.iter():
+        name = str(element.tag).rpartition("}")[2]
+        if name in ("script", "foreignObject", "iframe"):
+            raise CannotShow(f"an SVG image with <{name}>, which a page cannot show")
+        for key, value in element.attrib.items():
+            outside = (
+                key.rpartition("}")[2] == "href" and name in ("image", "use") and not value.startswith(("#", "data:"))
+            )
+            if outside:
+                raise CannotShow(f"an SVG image that needs another file: {value}")
+            if key.lower().startswith("on"):
+                raise CannotShow(f"an SVG image with a script in {key}")
+    start = re.search(r"<(\w+:)?svg\b", text)
+    return text[start.start() :].encode()

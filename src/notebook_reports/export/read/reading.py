@@ -1,0 +1,132 @@
+"""What the readers of one notebook share: where they are, what they have counted, what they could not show."""
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from notebook_reports.export.errors import CannotShow, Problem
+from notebook_reports.export.model import Block, Break, Display, Figure, Inline, Math, Paragraph, Picture, Text
+
+_MATH = re.compile(
+    r"(?<!\\)\$\$(?P<display>.+?)(?<!\\)\$\$"
+    r"|\\\[(?P<bracket>.+?)\\\]"
+    r"|\\\((?P<paren>.+?)\\\)"
+    r"|(?P<environment>\\begin\{(?P<name>[a-z]+\*?)\}.*?\\end\{(?P=name)\})"
+    r"|(?<![\\$])\$(?P<inline>[^$]+?)(?<![\\$])\$",
+    re.DOTALL,
+)
+_ENVIRONMENTS = {"equation", "align", "aligned", "gather", "gathered", "multline", "eqnarray", "split", "displaymath"}
+
+
+@dataclass
+class Reading:
+    """The state of reading one notebook.
+
+    folder: where relative images are looked up. document: what equation anchors begin with. strict_alt: a picture
+    without alternative text is a problem, not a picture called "Figure".
+    """
+
+    folder: Path | None = None
+    document: str = ""
+    strict_alt: bool = False
+    cell: int = 0
+    attachments: dict[str, dict[str, str]] = field(default_factory=dict)
+    notes: int = 0
+    problems: list[Problem] = field(default_factory=list)
+
+    @contextmanager
+    def guard(self) -> Iterator[None]:
+        """Note what cannot be shown and go on, so that one export names every problem of a notebook."""
+        try:
+            yield
+        except CannotShow as error:
+            self.problems.append(Problem(self.cell, str(error)))
+
+    def alt(self, text: str | None, what: str) -> str:
+        """The alternative text of a picture."""
+        text = (text or "").strip()
+        if text:
+            return text
+        if self.strict_alt:
+            raise CannotShow(f"{what} has no alternative text; say in one sentence what it shows")
+        return "Figure without a description"
+
+    def display(self, latex: str) -> Display:
+        """A formula on its own lines, its ``\\tag`` taken out."""
+        from notebook_reports.mathematics import MathError, extract_tag
+
+        try:
+            latex, label = extract_tag(latex.strip())
+        except MathError as error:
+            raise CannotShow(f"a formula: {error}") from None
+        anchor = "-".join(part for part in ("eq", self.document, label) if part) if label else ""
+        return Display(latex, label or "", anchor)
+
+
+def flow(nodes: list[Inline | Display]) -> list[Block]:
+    """Paragraphs out of inline nodes: displayed formulas stand alone, and so does a picture that is a paragraph."""
+    blocks: list[Block] = []
+    line: list[Inline] = []
+
+    def close() -> None:
+        trim(line)
+        solid = [node for node in line if not (isinstance(node, Text) and not node.text.strip())]
+        if len(solid) == 1 and isinstance(solid[0], Picture):
+            blocks.append(Figure(solid[0]))
+        elif line:
+            blocks.append(Paragraph(list(line)))
+        line.clear()
+
+    for node in nodes:
+        if isinstance(node, Display):
+            close()
+            blocks.append(node)
+        else:
+            line.append(node)
+    close()
+    return blocks
+
+
+def trim(line: list[Inline]) -> None:
+    """Take spaces and line breaks off both ends of a line, in place."""
+    for end, strip in ((0, str.lstrip), (-1, str.rstrip)):
+        while line and isinstance(line[end], Text | Break):
+            if isinstance(line[end], Text):
+                line[end].text = strip(line[end].text)
+                if line[end].text:
+                    break
+            del line[end]
+
+
+def with_math(text: str, reading: Reading) -> list[Inline | Display]:
+    """Running text of HTML as MathJax reads it: ``$…$`` is part of a line, ``$$…$$`` and environments stand alone."""
+    nodes: list[Inline | Display] = []
+    at = 0
+    for found in _MATH.finditer(text):
+        nodes.append(Text(_spaces(text[at : found.start()])))
+        at = found.end()
+        environment = found["environment"]
+        display = found["display"] or found["bracket"]
+        if environment and found["name"].rstrip("*") not in _ENVIRONMENTS:
+            nodes.append(Math(environment))
+        elif environment or display:
+            nodes.append(reading.display(environment or display))
+        else:
+            nodes.append(Math((found["paren"] or found["inline"]).strip()))
+    nodes.append(Text(_spaces(text[at:])))
+    return [node for node in nodes if not (isinstance(node, Text) and not node.text)]
+
+
+def _spaces(text: str) -> str:
+    return re.sub(r"[ \t\r\n\f]+", " ", text.replace("\\$", "$"))
+
+
+def anchor_of(text: str) -> str:
+    """The anchor Jupyter gives a heading.
+
+    >>> anchor_of(" Two tanks, one delay ")
+    'Two-tanks,-one-delay'
+    """
+    return text.strip().replace(" ", "-")

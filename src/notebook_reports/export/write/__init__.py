@@ -1,0 +1,1 @@
+"""A report's model written as Typst or HTML."""

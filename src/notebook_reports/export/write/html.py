@@ -1,0 +1,234 @@
+"""A report's blocks as HTML: semantic elements, mathematics as MathML, drawings inside, nothing fetched."""
+
+import base64
+import re
+from dataclasses import dataclass, field
+from html import escape
+
+from notebook_reports.export.formulas import as_mathml
+from notebook_reports.export.model import (
+    Anchor,
+    Block,
+    Break,
+    Bullets,
+    Cell,
+    Code,
+    Definitions,
+    Display,
+    Figure,
+    Grid,
+    Heading,
+    Inline,
+    Item,
+    Link,
+    Listing,
+    Math,
+    Note,
+    Paragraph,
+    Picture,
+    Quote,
+    ReportCell,
+    Rule,
+    Styled,
+    Text,
+    plain,
+)
+from notebook_reports.export.read.notebook import beside
+from notebook_reports.export.read.pictures import MIME
+from notebook_reports.export.write.highlighting import runs
+
+_STYLES = {"emph": "em", "strong": "strong", "strike": "s", "underline": "u", "sub": "sub", "super": "sup"}
+_MARKS = {"good": "✓", "note": "◆", "bad": "✗"}
+_ROLES = {"stderr": "Warning output", "error": "Error"}
+
+
+@dataclass
+class HtmlWriter:
+    """Writes blocks as HTML. name: of the notebook. notes: the footnotes met so far."""
+
+    name: str = ""
+    notes: list[Note] = field(default_factory=list)
+    drawings: int = 0
+
+    def report_cell(self, cell: ReportCell) -> str:
+        """One cell of the notebook with its anchor."""
+        anchor = f'<div id="{cell.anchor}">' if cell.anchor else "<div>"
+        return f"{anchor}\n{self.blocks(cell.blocks)}\n</div>"
+
+    def blocks(self, blocks: list[Block]) -> str:
+        return "\n".join(self.block(block) for block in blocks)
+
+    def block(self, block: Block) -> str:
+        match block:
+            case Paragraph(children):
+                return f"<p>{self.inline(children)}</p>"
+            case Heading():
+                return self.heading(block)
+            case Display():
+                return self.display(block)
+            case Listing():
+                return self.listing(block)
+            case Bullets():
+                tag = "ol" if block.ordered else "ul"
+                start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
+                items = "".join(self.item(item, block.tight) for item in block.items)
+                return f"<{tag}{start}>{items}</{tag}>"
+            case Definitions(items):
+                parts = (f"<dt>{self.inline(term)}</dt><dd>{self.blocks(body)}</dd>" for term, body in items)
+                return f"<dl>{''.join(parts)}</dl>"
+            case Quote(blocks):
+                return f"<blockquote>{self.blocks(blocks)}</blockquote>"
+            case Rule():
+                return "<hr>"
+            case Grid():
+                return self.grid(block)
+            case Figure(picture, caption, number):
+                told = f"<figcaption>{self.caption(number, caption)}</figcaption>" if caption else ""
+                return f'<figure><div class="sheet">{self.picture(picture)}</div>{told}</figure>'
+        raise TypeError(f"no HTML form for {type(block).__name__}")
+
+    def heading(self, heading: Heading) -> str:
+        tag = f"h{min(heading.level + 1, 6)}"
+        number = f'<span class="number">{heading.number}</span> ' if heading.number else ""
+        return f'<{tag} id="{escape(heading.anchor)}">{number}{self.inline(heading.children)}</{tag}>'
+
+    def display(self, block: Display) -> str:
+        anchor = f' id="{escape(block.anchor)}"' if block.anchor else ""
+        label = f'<span class="label">({escape(block.label)})</span>' if block.label else ""
+        body = f'<div class="scroll" tabindex="0">{as_mathml(block.latex, True)}</div>'
+        return f'<div class="formula"{anchor}>{body}{label}</div>'
+
+    def listing(self, block: Listing) -> str:
+        cut = ((kind, escape(text, quote=False)) for kind, text in runs(block.text, block.language))
+        body = "".join(f'<span class="{kind}">{text}</span>' if kind else text for kind, text in cut)
+        told = f' role="group" aria-label="{_ROLES[block.role]}"' if block.role in _ROLES else ""
+        return f'<pre class="{block.role}"{told}><code>{body}</code></pre>'
+
+    def item(self, item: Item, tight: bool) -> str:
+        checked = " checked" if item.checked else ""
+        start = "<li>"
+        if item.checked is not None:
+            start = f'<li class="task"><input type="checkbox" disabled{checked} aria-label="task"> '
+        parts = [self.inline(b.children) if tight and isinstance(b, Paragraph) else self.block(b) for b in item.blocks]
+        return start + "\n".join(parts) + "</li>"
+
+    def caption(self, number: str, caption: list[Inline]) -> str:
+        return (f"<b>{number}.</b> " if number else "") + self.inline(caption)
+
+    def grid(self, grid: Grid) -> str:
+        rows: list[list[str]] = [[] for _ in range(grid.rows)]
+        for cell in sorted(grid.cells, key=lambda c: (c.y, c.x)):
+            rows[cell.y].append(self.cell(cell, cell.y < grid.head_rows))
+        lines = [f"<tr>{''.join(row)}</tr>" for row in rows]
+        head = f"<thead>{''.join(lines[: grid.head_rows])}</thead>" if grid.head_rows else ""
+        body = "\n".join(lines[grid.head_rows :])
+        caption = f"<caption>{self.caption(grid.number, grid.caption)}</caption>" if grid.caption else ""
+        name = escape(f"{grid.number}. {plain(grid.caption)}" if grid.caption else "Table")
+        notes = "".join(f"<p>{self.inline(note)}</p>" for note in grid.notes)
+        notes = f'<div class="notes">{notes}</div>' if notes else ""
+        table = f"<table>{caption}{head}<tbody>{body}</tbody></table>"
+        scrolls = f'<div class="scroll" role="region" aria-label="{name}" tabindex="0">{table}</div>'
+        return f'<div class="table">{scrolls}{notes}</div>'
+
+    def cell(self, cell: Cell, in_head: bool) -> str:
+        tag = "th" if cell.head else "td"
+        spans = "".join(f' {k}="{v}"' for k, v in (("colspan", cell.colspan), ("rowspan", cell.rowspan)) if v > 1)
+        scope = f' scope="{("colgroup" if cell.colspan > 1 else "col") if in_head else "row"}"' if cell.head else ""
+        classes = [c for c in (cell.align if cell.align != "left" else "", cell.mark) if c]
+        if len(plain(cell.children)) > 28:
+            classes.append("long")
+        css = f' class="{" ".join(classes)}"' if classes else ""
+        symbol = f'<span class="symbol">{_MARKS[cell.mark]}</span> ' if cell.mark else ""
+        return f"<{tag}{spans}{scope}{css}>{symbol}{self.inline(cell.children)}</{tag}>"
+
+    def inline(self, nodes: list[Inline]) -> str:
+        """Inline nodes; a formula keeps the punctuation after it on its line."""
+        parts = []
+        for i, node in enumerate(nodes):
+            shown = self.node(node)
+            before = nodes[i - 1] if i else None
+            mark = re.match(r"[.,;:!?)\]…’”-]+", shown) if isinstance(before, Math) and isinstance(node, Text) else None
+            if mark:
+                parts[-1] = f'<span class="together">{parts[-1]}{mark[0]}</span>'
+                shown = shown[mark.end() :]
+            parts.append(shown)
+        return "".join(parts)
+
+    def node(self, node: Inline) -> str:
+        match node:
+            case Text(text):
+                return escape(text, quote=False)
+            case Code(text):
+                return f"<code>{escape(text, quote=False)}</code>"
+            case Math(latex):
+                return as_mathml(latex, False)
+            case Styled(style, children):
+                return f"<{_STYLES[style]}>{self.inline(children)}</{_STYLES[style]}>"
+            case Link():
+                return f'<a href="{escape(self.address(node))}">{self.inline(node.children)}</a>'
+            case Picture():
+                return self.picture(node)
+            case Break():
+                return "<br>"
+            case Anchor(name):
+                return f'<span id="{escape(name)}"></span>'
+            case Note(number, blocks):
+                again = not blocks
+                if blocks:
+                    self.notes.append(node)
+                back = "" if again else f' id="footnote-{number}-from"'
+                return f'<sup><a{back} href="#footnote-{number}" role="doc-noteref">{number}</a></sup>'
+        raise TypeError(f"no HTML form for {type(node).__name__}")
+
+    def address(self, link: Link) -> str:
+        if link.kind == "internal":
+            return "#" + link.target
+        return beside(link.target, self.name, ".html") if link.kind == "notebook" else link.target
+
+    def footnotes(self) -> str:
+        """The footnotes met so far, or nothing."""
+        items = []
+        for note in self.notes:
+            back = f'<a href="#footnote-{note.number}-from" role="doc-backlink" aria-label="back to the text">↩</a>'
+            items.append(f'<li id="footnote-{note.number}">{self.blocks(note.blocks)} {back}</li>')
+        if not items:
+            return ""
+        return (
+            f'<section class="footnotes" role="doc-endnotes" aria-label="Footnotes"><ol>{"".join(items)}</ol></section>'
+        )
+
+    def picture(self, picture: Picture) -> str:
+        """A drawing inside the page where it can be, so that its text can be found; else as an image of data."""
+        alt = escape(picture.alt)
+        if picture.kind == "svg":
+            self.drawings += 1
+            inside = inside_page(picture.data.decode(), f"d{self.drawings}", alt)
+            if inside:
+                return inside
+        width = f' width="{picture.width:g}"' if picture.width else ""
+        data = base64.b64encode(picture.data).decode()
+        return f'<img src="data:{MIME[picture.kind]};base64,{data}" alt="{alt}"{width}>'
+
+
+_PLAIN_STYLE = re.compile(r"<style[^>]*>\s*\*\s*\{[^}]*\}\s*</style>")
+
+
+def inside_page(svg: str, prefix: str, alt: str) -> str:
+    """An SVG that may stand in an HTML page: its ids its own, no style of its own for the page; "" if it may not.
+
+    matplotlib's drawings may: their one style rule, for line joins, becomes attributes of the drawing.
+    """
+    rules = _PLAIN_STYLE.findall(svg)
+    svg = _PLAIN_STYLE.sub("", svg)
+    if "<style" in svg or not svg.startswith("<svg"):
+        return ""
+    svg = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    used = set(re.findall(r"(?:url\(#|href=\"#)([^)\"]+)", svg))
+
+    def named(found: re.Match[str]) -> str:
+        return f' id="{prefix}-{found[1]}"' if found[1] in used else ""
+
+    svg = re.sub(r'\sid="([^"]*)"', named, svg)
+    svg = re.sub(r"(url\(#|href=\"#)", rf"\g<1>{prefix}-", svg)
+    joins = ' stroke-linejoin="round" stroke-linecap="butt"' if rules and "stroke-linejoin" in rules[0] else ""
+    return f'<svg role="img" aria-label="{alt}"{joins}{svg[4:]}'

@@ -1,0 +1,187 @@
+"""Typst source to PDF bytes, in this process: our fonts only, no network, the same bytes each time."""
+
+import atexit
+import functools
+import importlib.util
+import json
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from notebook_reports.run.surroundings import EPOCH
+
+STANDARDS = ("a-2a", "ua-1")
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One complaint of the engine. line: 1-based line of main.typ, or None where it lies in no line of it."""
+
+    message: str
+    line: int | None
+
+
+class TypstFailed(RuntimeError):
+    """The source does not compile; `diagnostics` say why."""
+
+    def __init__(self, diagnostics: list[Diagnostic]):
+        self.diagnostics = diagnostics
+        self.source = ""
+        self.files: dict[str, bytes] = {}
+        super().__init__("; ".join(d.message for d in diagnostics))
+
+
+@functools.cache
+def fonts() -> Any:
+    """The wheel's fonts and matplotlib's (which is not imported), and none of the system's.
+
+    matplotlib's "last resort" font has a box for every character there is: with it no missing glyph would be noticed,
+    so the others are linked into a folder without it.
+    """
+    import typst
+
+    folder = Path(tempfile.mkdtemp(prefix="loopbook-fonts-"))
+    owner = os.getpid()  # a forked child must not remove what its parent still reads
+    atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
+    spec = importlib.util.find_spec("matplotlib")
+    source = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" if spec and spec.origin else None
+    for file in sorted(source.glob("*.ttf")) if source else ():
+        if "LastResort" in file.name:
+            continue
+        try:
+            os.symlink(file, folder / file.name)
+        except OSError:
+            shutil.copyfile(file, folder / file.name)
+    return typst.Fonts(include_system_fonts=False, font_paths=[str(folder)])
+
+
+def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
+    """Compile main.typ beside its files to PDF/A-2a and PDF/UA-1. Raises TypstFailed."""
+    import typst
+
+    with tempfile.TemporaryDirectory(prefix="loopbook-pdf-") as folder:
+        root = Path(folder)
+        for name, content in files.items():
+            (root / name).write_bytes(content)
+        main = root / "main.typ"
+        main.write_text(source, encoding="utf-8")
+        nowhere = str(root / "no-packages")
+        try:
+            compiler = typst.Compiler(
+                str(main), root=folder, font_paths=fonts(), package_path=nowhere, package_cache_path=nowhere
+            )
+            pdf, warnings = compiler.compile_with_warnings(timestamp=int(EPOCH), pdf_standards=list(STANDARDS))
+        except typst.TypstError as error:
+            raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
+    if warnings:
+        raise TypstFailed([d for w in warnings for d in _diagnostics(w.diagnostic, w.message)])
+    return pdf
+
+
+def picture_pdf(svg: bytes) -> bytes:
+    """A drawing as a PDF page of its own size, its text as text. Raises TypstFailed."""
+    import typst
+
+    page = b'#set page(width: auto, height: auto, margin: 0pt)\n#image("picture.svg")'
+    with tempfile.TemporaryDirectory(prefix="loopbook-pdf-") as folder:
+        (Path(folder) / "picture.svg").write_bytes(svg)
+        (Path(folder) / "main.typ").write_bytes(page)
+        try:
+            compiler = typst.Compiler(str(Path(folder) / "main.typ"), root=folder, font_paths=fonts())
+            return compiler.compile(timestamp=int(EPOCH))
+        except typst.TypstError as error:
+            raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
+
+
+def _diagnostics(text: str, message: str) -> list[Diagnostic]:
+    found = []
+    for part in re.split(r"^(?=(?:error|warning): )", text, flags=re.MULTILINE):
+        head = re.match(r"(?:error|warning): (.*)", part)
+        if head:
+            place = re.search(r"┌─ \S*main\.typ:(\d+):", part)
+            found.append(Diagnostic(head[1].strip(), int(place[1]) if place else None))
+    return found or [Diagnostic(message, None)]
+
+
+_MISSING = re.compile(r'the text `"(?P<text>.*)"` could not be displayed')
+_PRIVATE = re.compile(r'contains the codepoint `"(?P<text>.*)"`')
+_TOO_WIDE = re.compile(r"loopbook\|(?P<cell>\d+)\|(?P<what>[^|]*)\|(?P<table>[^|]*)\|(?P<share>\d+)")
+LANDSCAPE_FROM = 40
+"""The share, in percent, of its size at which a table fits a portrait page, from which on it fits a landscape one."""
+
+
+_wide: set[str] = set()
+"""The tables that this process found too wide; by content, so that a book need not find them again."""
+
+
+def compile_turning(write: Callable[[frozenset[str]], tuple[str, dict[str, bytes]]]) -> bytes:
+    """Compile what `write` gives for a set of turned tables.
+
+    A table too wide for the page is turned, onto a landscape page, and all is written and compiled again.
+    Raises TypstFailed, with the last source and files as its `source` and `files`.
+    """
+    turned = frozenset(_wide)
+    while True:
+        source, files = write(turned)
+        try:
+            return compile_pdf(source, files)
+        except TypstFailed as error:
+            wide = [m for d in error.diagnostics if (m := _TOO_WIDE.search(d.message)) and m["table"]]
+            more = {m["table"] for m in wide if int(m["share"]) >= LANDSCAPE_FROM} - turned
+            if not more:
+                error.source, error.files = source, files
+                raise
+            turned |= more
+            _wide.update(more)
+
+
+def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | None]) -> tuple[int | None, str]:
+    """What the engine's complaint means to the writer of the notebook, and the cell.
+
+    cell_at: from a line of the source and the character in question, either may be unknown, to a cell.
+    """
+    message = diagnostic.message
+    wide = _TOO_WIDE.search(message)
+    if wide:
+        what = f"{wide['what']} is too wide: it would fit the page only at {wide['share']} % of its size"
+        return int(wide["cell"]) or None, f"{what} (60 % is the least); write it narrower"
+    glyph = _MISSING.search(message) or _PRIVATE.search(message)
+    if glyph:
+        text = re.sub(r"\\u\{([0-9a-f]+)\}", lambda m: chr(int(m[1], 16)), glyph["text"])
+        codes = " ".join(f"U+{ord(c):04X}" for c in text)
+        told = f"no font of the report has {text!r} ({codes}); write it in another way, or as a picture"
+        return cell_at(diagnostic.line, text), told
+    return cell_at(diagnostic.line, ""), f"the PDF engine refuses it: {message}"
+
+
+def too_wide_table(diagnostic: Diagnostic) -> str:
+    """The name, count and content of the table that is too wide, or nothing."""
+    wide = _TOO_WIDE.search(diagnostic.message)
+    return wide["table"] if wide else ""
+
+
+def cell_finder(source: str, pictures: dict[str, bytes]) -> Callable[[int | None, str], int | None]:
+    """Find the cell a line of the source belongs to, or the one whose picture holds a character."""
+    lines = source.split("\n")
+    cells: list[int | None] = []
+    current: int | None = None
+    for line in lines:
+        mark = re.fullmatch(r"// cell (\d+)", line)
+        current = int(mark[1]) if mark else current
+        cells.append(current)
+
+    def find(line: int | None, text: str) -> int | None:
+        if line is not None and line <= len(cells):
+            return cells[line - 1]
+        for name, data in pictures.items():
+            if text and name.endswith(".svg") and text in data.decode():
+                quoted = json.dumps(name)
+                return next((cell for cell, row in zip(cells, lines, strict=True) if quoted in row), None)
+        return None
+
+    return find

@@ -1,0 +1,1 @@
+"""Printed values, their verdicts, and the files that keep them."""

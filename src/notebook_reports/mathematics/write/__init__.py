@@ -1,0 +1,1 @@
+"""Formulas as Typst, as MathML, as text."""

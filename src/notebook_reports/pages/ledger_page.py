@@ -1,0 +1,286 @@
+"""The ledger to be read: coverage, errata, what is not reproduced and why, what is, glossary, index of places.
+
+Every record stands in exactly one of the three reports, in a row that leads to the notebook and section that shows it.
+They are made here and not in a notebook, because a notebook does not read another one.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from notebook_reports.display import Table
+from notebook_reports.export.page import LinkedTable, Page
+from notebook_reports.ledger.coverage import TABLES, VERDICTS, Count, by_document, total
+from notebook_reports.ledger.files import natural
+from notebook_reports.ledger.glossary import Term
+from notebook_reports.ledger.harvest import Found
+from notebook_reports.ledger.verdicts import FAILS, GIVEN, HOLDS, MARKS, MISPRINT, READ, REPRODUCED, ROUNDED
+from notebook_reports.pages.errata import FALSE, HARMLESS, MISLEADS, Erratum, errata
+from notebook_reports.pages.medium import Medium, To, at, beside, code, literal, short
+
+GOOD = {GIVEN, REPRODUCED, ROUNDED, READ, HOLDS}
+NAMES = {"value": "values", "claim": "statements", "misprint": "misprints"}
+COVERAGE, ERRATA, OPEN, REPRODUCED_PAGE, GLOSSARY, INDEX = (
+    "Coverage",
+    "Errata",
+    "What is not reproduced, and why",
+    "What is reproduced",
+    "Glossary",
+    "Index of printed tables and places",
+)
+PLAIN_KINDS = {"text", "label", "cross-reference"}
+Content = list[Any]
+
+
+def pages(medium: Medium, counts: Sequence[Count], found: Sequence[Found], terms: Sequence[Term]) -> list[Page]:
+    """All pages, in the order of the book. terms: of the glossary, none where there is none."""
+    made = [
+        Page(COVERAGE, coverage_page(counts), "coverage"),
+        Page(ERRATA, errata_page(medium, found), "errata"),
+        Page(OPEN, open_page(medium, found), "open"),
+        Page(REPRODUCED_PAGE, reproduced_page(medium, found), "reproduced"),
+        Page(GLOSSARY, glossary_page(terms), "glossary"),
+        Page(INDEX, index_page(medium, found), "index"),
+    ]
+    return [page for page in made if page.content]
+
+
+def sentences(counts: Sequence[Count]) -> list[str]:
+    """The coverage in three sentences, for a cover."""
+    whole = total(counts)
+    lines = []
+    for table in TABLES:
+        if not whole.printed[table]:
+            continue
+        verdicts = ", ".join(f"{n} {told(verdict, n)}" for verdict, n in whole.of(table))
+        word = {"value": "printed values", "claim": "statements tested", "misprint": "misprints found"}[table]
+        lines.append(f"{whole.printed[table]} {word}: {verdicts or 'none checked'}")
+    if whole.unchecked:
+        lines.append(f"{len(whole.unchecked)} printed entries that no notebook checks")
+    return lines
+
+
+def told(verdict: str, number: int) -> str:
+    """The verdict as the verb of a number.
+
+    >>> told("holds partly", 2), told("fails", 1), told("reproduced", 3)
+    ('hold partly', 'fails', 'reproduced')
+    """
+    words = verdict.split()
+    verb = words[0] in ("holds", "fails", "differs") and number != 1
+    return " ".join([words[0].removesuffix("s"), *words[1:]]) if verb else verdict
+
+
+def coverage_page(counts: Sequence[Count]) -> Content:
+    """How many entries each document and each place has, and with which verdicts."""
+    if not counts:
+        return []
+    documents = by_document(counts)
+    heads = ["entry", "verdict", *(d.document for d in documents), "all"]
+    rows, whole = [], total(counts)
+    for table, verdicts in VERDICTS.items():
+        for verdict in verdicts:
+            numbers = [d.verdicts.get((table, verdict), 0) for d in (*documents, whole)]
+            if any(numbers):
+                rows.append([NAMES[table], verdict, *map(str, numbers)])
+    align = ["left", "left", *["right"] * (len(documents) + 1)]
+    content: Content = [
+        "Every number, statement and misprint of the documents that can be checked, with the verdict it got. "
+        "A *given* value is an input of the document; *from rounded inputs* means that the digits follow from the "
+        "document's own rounded numbers and not from exact ones; *read* means read off a graph, within its width.",
+        Table(heads, rows, "Verdicts by document", align),
+    ]
+    missing = [c for c in counts if c.unchecked]
+    if missing:
+        lines = [f"- {c.document}, {literal(c.place)}: {', '.join(id for _, id in c.unchecked)}" for c in missing]
+        content.append("No notebook checks these entries:\n\n" + "\n".join(lines))
+    for document in documents:
+        here = [c for c in counts if c.document == document.document]
+        rows = [_coverage_row(c) for c in here]
+        sums = [str(document.printed[t]) if t != "misprint" else _number(document.printed[t]) for t in TABLES]
+        rows.append([f"all {len(here)} places", sums[0], "", sums[1], "", sums[2]])
+        heads = ["place", "values", "their verdicts", "statements", "their verdicts", "misprints"]
+        align = ["left", "right", "left", "right", "left", "right"]
+        content += [f"## {document.document}", Table(heads, rows, f"{document.document}, place by place", align)]
+    return content
+
+
+def _coverage_row(count: Count) -> list[str]:
+    values, claims, misprints = (_number(count.printed[t]) for t in TABLES)
+    verdicts = [", ".join(f"{n} {told(v, n)}" for v, n in count.of(t)) for t in TABLES]
+    return [literal(count.place), values, verdicts[0], claims, verdicts[1], misprints]
+
+
+def _number(number: int) -> str:
+    return str(number) if number else ""
+
+
+def errors(found: Iterable[Found]) -> str:
+    """The number of errata in words."""
+    wrong = errata(found)
+    misleads, false = (sum(e.group == group for e in wrong) for group in (MISLEADS, FALSE))
+    return (
+        f"{len(wrong)} errors in the documents: {misleads} would mislead someone who uses what is printed, {false} "
+        f"statements do not hold, {len(wrong) - misleads - false} mislead nobody"
+    )
+
+
+def errata_page(medium: Medium, found: Sequence[Found]) -> Content:
+    """What is wrong in the documents; what misleads first."""
+    wrong = errata(found)
+    if not wrong:
+        return ["The notebooks found nothing wrong."]
+    heads = {
+        MISLEADS: "What would mislead someone who uses it",
+        FALSE: "Statements that do not hold",
+        HARMLESS: "What is only written wrongly",
+    }
+    shows = f"the {'page' if medium.paper else 'section'} named in its row shows how"
+    content: Content = [
+        f"{errors(found)}. Each was found by computation or by comparison within the document, and {shows}."
+    ]
+    for group, title in heads.items():
+        chosen = [e for e in wrong if e.group == group]
+        if chosen:
+            content.append(f"## {title}")
+        for document in dict.fromkeys(e.found.document for e in chosen):
+            rows = [e for e in chosen if e.found.document == document]
+            content.append(_errata_table(medium, document, group, rows))
+    return content
+
+
+def _errata_table(medium: Medium, document: str, group: str, rows: Sequence[Erratum]) -> LinkedTable:
+    if group == FALSE:
+        columns = ["place", "the document says", "computed", medium.where]
+        made = [[literal(e.found.place), e.printed, e.note, at(e.found)] for e in rows]
+        return medium.table(columns, made, f"{document}: statements that do not hold")
+    columns = ["place", "printed", "correct", "what is wrong", medium.where]
+    made = [[literal(e.found.place), *_forms(e), e.note, at(e.found)] for e in rows]
+    caption = {MISLEADS: "errors that mislead", HARMLESS: "slips that mislead nobody"}[group]
+    return medium.table(columns, made, f"{document}: {caption}")
+
+
+def _forms(wrong: Erratum) -> tuple[str, str]:
+    if wrong.kind == "number":
+        unit = wrong.found.fields["unit"]
+        return f"{short(wrong.printed)} {unit}".strip(), f"{beside(wrong.corrected, wrong.printed)} {unit}".strip()
+    show = literal if wrong.kind in PLAIN_KINDS else code
+    return show(wrong.printed), show(wrong.corrected)
+
+
+def open_page(medium: Medium, found: Sequence[Found]) -> Content:
+    """What neither holds nor is wrong: values that differ for a reason, statements that hold in part."""
+    chosen = [r for r in found if r.table != "misprint" and r.verdict not in {*GOOD, MISPRINT, FAILS}]
+    chosen += [r for r in found if r.table == "misprint" and r.fails]
+    link = medium.page("errata", ERRATA)
+    content: Content = [
+        f"What is wrong in the documents stands in the [errata]({link}). Here is the rest that is not simply "
+        "reproduced: values that differ for a reason that is given, and statements that hold in part, with the part "
+        "that does not."
+    ]
+    if not chosen:
+        content.append("There is none.")
+    values = [r for r in _sorted(chosen) if r.table == "value"]
+    if values:
+        columns = ["place", "quantity", "printed", "exact", "why", medium.where, "verdict"]
+        rows = [[_place(r), *_value(r)[:3], r.fields["reason"], at(r), r.verdict] for r in values]
+        content += ["## Values", medium.table(columns, rows, "Values that are not reproduced", (), _marks(values))]
+    claims = [r for r in _sorted(chosen) if r.table == "claim"]
+    if claims:
+        content.append("## Statements")
+    for document in dict.fromkeys(r.document for r in claims):
+        here = [r for r in claims if r.document == document]
+        content.append(_claims(medium, here, f"{document}: statements that hold in part"))
+    failed = [r for r in chosen if r.table == "misprint"]
+    if failed:
+        rows = [[_place(r), code(r.fields["printed"]), at(r), r.verdict] for r in failed]
+        columns = ["place", "printed", medium.where, "verdict"]
+        content.append(medium.table(columns, rows, "Misprints that are not confirmed", (), _marks(failed)))
+    return content
+
+
+def reproduced_page(medium: Medium, found: Iterable[Found]) -> Content:
+    """Every value that the computation gives, every input, every statement that holds."""
+    good = [r for r in found if r.verdict in GOOD]
+    content: Content = []
+    if good:
+        content.append(
+            "*exact* is computed from first principles at full precision; *from rounded inputs* by the document's own "
+            "chain of arithmetic, from its own rounded numbers, where only that gives the printed digits."
+        )
+    for document in dict.fromkeys(r.document for r in _sorted(good)):
+        here = [r for r in _sorted(good) if r.document == document]
+        content.append(f"## {document}")
+        values = [r for r in here if r.table == "value"]
+        if values:
+            columns = ["place", "quantity", "printed", "exact", "from rounded inputs", medium.where, "verdict"]
+            rows = [[literal(r.place), *_value(r), at(r), r.verdict] for r in values]
+            align = ["left", "left", "right", "right", "right", "right" if medium.paper else "left", "left"]
+            content.append(medium.table(columns, rows, f"{document}: values", align, _marks(values)))
+        claims = [r for r in here if r.table == "claim"]
+        if claims:
+            content.append(_claims(medium, claims, f"{document}: statements that hold"))
+    return content
+
+
+def _claims(medium: Medium, claims: Sequence[Found], caption: str) -> LinkedTable:
+    columns = ["place", "the document says", "computed", medium.where, "verdict"]
+    rows = [[literal(r.place), r.fields["says"], r.fields["evidence"], at(r), r.verdict] for r in claims]
+    return medium.table(columns, rows, caption, (), _marks(claims))
+
+
+def _value(found: Found) -> tuple[str, str, str, str]:
+    fields = found.fields
+    digits = fields["printed"]
+    computed = (beside(fields[key], digits) for key in ("exact", "from_inputs"))
+    return (fields["quantity"], f"{short(digits)} {fields['unit']}".strip(), *computed)
+
+
+def _place(found: Found) -> str:
+    return f"{found.document}, {literal(found.place)}"
+
+
+def _marks(found: Iterable[Found]) -> list[str]:
+    return [MARKS[r.verdict] for r in found]
+
+
+def _sorted(found: Iterable[Found]) -> list[Found]:
+    """By document as they come, then by place as a person counts."""
+    found = list(found)
+    documents = list(dict.fromkeys(r.document for r in found))
+    return sorted(found, key=lambda r: (documents.index(r.document), natural(r.place), r.table != "value"))
+
+
+def glossary_page(terms: Sequence[Term]) -> Content:
+    """The documents' own terms beside ours, by the English word."""
+    if not terms:
+        return []
+    rows = [[t.en, t.sv, t.pl, t.symbol, t.unit] for t in sorted(terms, key=lambda t: t.en.casefold())]
+    heads = ["English", "Swedish", "Polish", "symbol", "unit"]
+    return [Table(heads, rows, "Terms of the three documents", ["left"] * 5)]
+
+
+def index_page(medium: Medium, found: Iterable[Found]) -> Content:
+    """From a printed table, figure, equation or section to where the notebooks take it up."""
+    content: Content = []
+    records = _sorted(found)
+    for document in dict.fromkeys(r.document for r in records):
+        met: dict[tuple[str, str, str], Found] = {}
+        for record in records:
+            if record.document == document:
+                key = (record.place, record.notebook, record.section)
+                met[key] = min(record, met.get(key, record), key=lambda r: r.cell)
+        ordered = sorted(met.values(), key=lambda r: (natural(r.place), r.notebook, r.cell))
+        rows = [[literal(r.place), To(_short_name(r), r.notebook), *_section(medium, r), at(r)] for r in ordered]
+        columns = ["place", "notebook", *(["section"] if medium.paper else []), medium.where]
+        align = ["left", "left", "left", "right"] if medium.paper else ["left"] * 3
+        content += [f"## {document}", medium.table(columns, rows, f"{document}: places", align)]
+    return content
+
+
+def _short_name(found: Found) -> str:
+    """The notebook's name, with its folder where that is not the document's."""
+    return found.notebook.removeprefix(found.document.replace("-", "_") + "/")
+
+
+def _section(medium: Medium, found: Found) -> list[str]:
+    return [at(found).section] if medium.paper else []

@@ -1,0 +1,1 @@
+"""Where a project keeps things; its notebooks, their parameters; files, failures, the console."""

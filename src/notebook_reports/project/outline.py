@@ -1,0 +1,71 @@
+"""The order of the book: notebooks/book.toml names its parts, the manifest the notebooks in each.
+
+title = "PID control and pole placement, recomputed"
+subtitle = "Three documents, and every number in them"
+
+[[part]]
+folder = "pid_report"          # of notebooks/
+title = "A report on the PID controller"
+about = "How it works, how it is programmed, how it is tuned."
+"""
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from notebook_reports.project.project import Project, UsageError
+
+FILE = "book.toml"
+Entry = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part. entries: of the manifest, in order."""
+
+    folder: str
+    title: str
+    about: str
+    entries: tuple[Entry, ...]
+
+
+@dataclass(frozen=True)
+class Outline:
+    """The whole book."""
+
+    title: str
+    subtitle: str
+    parts: tuple[Part, ...]
+
+    @property
+    def entries(self) -> list[Entry]:
+        """All notebooks, in the order of the book."""
+        return [entry for part in self.parts for entry in part.entries]
+
+
+def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
+    """Put the manifest's entries into the parts.
+
+    Raises UsageError for a file that cannot be read, a notebook that no part lists and a part without notebooks; each
+    by its name.
+    """
+    path = project.notebooks_folder / FILE
+    where = f"notebooks/{FILE}"
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        named = [(p["folder"], p["title"], p.get("about", "")) for p in content["part"]]
+        title, subtitle = content["title"], content.get("subtitle", "")
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(f"{where}: {error}") from None
+    except KeyError as error:
+        raise UsageError(f"{where}: {error.args[0]} is missing") from None
+    folders = [folder for folder, _, _ in named]
+    wrong = [f"notebooks/{e['id']}.ipynb is in no part of {where}" for e in entries if e["folder"] not in folders]
+    wrong += [f"{where}: two parts for {folder}" for folder in {f for f in folders if folders.count(f) > 1}]
+    held = {e["folder"] for e in entries}
+    wrong += [f"{where}: no notebook in notebooks/{folder}" for folder in folders if folder not in held]
+    if wrong:
+        raise UsageError("; ".join(sorted(wrong)))
+    parts = [Part(*named_part, tuple(e for e in entries if e["folder"] == named_part[0])) for named_part in named]
+    return Outline(title, subtitle, tuple(parts))

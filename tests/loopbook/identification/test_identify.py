@@ -1,0 +1,205 @@
+"""Identification on data made from known processes: recovered within the stated intervals, or refused in words."""
+
+import numpy as np
+import pytest
+
+from loopbook.identification import intervals
+from loopbook.identification.choice import identify
+from loopbook.identification.least_squares import fit_structure
+from loopbook.identification.models import (
+    FIRST_ORDER,
+    INTEGRATING,
+    INTEGRATING_LAG,
+    SECOND_ORDER,
+    STRUCTURES,
+    Structure,
+)
+from loopbook.process.transfer_function import Process
+from loopbook.records.record import Record, RecordError
+from loopbook.records.steps import find_steps, noise_level
+
+TRUE = {
+    FIRST_ORDER: ((2.0, 10.0, 3.0), 0.03),
+    SECOND_ORDER: ((2.0, 10.0, 4.0, 2.0), 0.01),
+    INTEGRATING: ((0.2, 3.0), 0.05),
+    INTEGRATING_LAG: ((0.2, 4.0, 3.0), 0.03),
+}
+
+
+def made(structure: Structure, values, noise: float, seed: int = 0, length: float = 60.0, step_at: float = 5.0, h=0.25):
+    """A record of one unit step through a known model, with white measurement noise."""
+    time = np.arange(0.0, length, h)
+    u = np.where(time >= step_at, 1.0, 0.0)
+    first = float(time[np.argmax(u)])
+    clean = values[0] * structure.response(time, [(first, 1.0)], tuple(values[1:-1]), values[-1])
+    return Record(time, u, 20 + clean + np.random.default_rng(seed).normal(0, noise, len(time)))
+
+
+@pytest.mark.parametrize("structure", STRUCTURES, ids=lambda s: s.name)
+def test_the_shape_is_the_exact_response_of_the_process(structure):
+    lags = (7.0, 2.0)[: structure.lags]
+    process = structure.process(1.5, lags, 3.0)
+    time = np.linspace(0, 40, 81)
+    ours = 1.5 * structure.response(time, [(0.0, 1.0)], lags, 3.0)
+    assert np.allclose(ours, process.step(time), atol=1e-9)
+
+
+def test_nearly_equal_lags_are_no_trap():
+    time = np.linspace(0, 40, 81)
+    near = SECOND_ORDER.shape(time, (5.0, 5.0 * 0.979))
+    equal = SECOND_ORDER.shape(time, (5.0, 5.0 * 0.981))
+    assert np.abs(near - equal).max() < 2e-3
+
+
+@pytest.mark.parametrize("structure", TRUE, ids=lambda s: s.name)
+def test_known_processes_are_recovered_within_their_intervals_in_nine_of_ten_seeds(structure):
+    values, noise = TRUE[structure]
+    hits = np.zeros(len(values))
+    for seed in range(20):
+        fit = fit_structure(made(structure, values, noise, seed), structure)
+        hits += [p.interval[0] <= v <= p.interval[1] for p, v in zip(fit.parameters, values, strict=True)]
+    assert (hits >= 18).all(), hits
+
+
+@pytest.mark.parametrize("structure", TRUE, ids=lambda s: s.name)
+def test_the_structure_that_made_the_data_is_chosen(structure):
+    values, noise = TRUE[structure]
+    found = identify(made(structure, values, noise))
+    assert found.chosen.structure is structure
+    assert found.criteria[structure] <= 10 and len(found.reasons) == len(STRUCTURES)
+
+
+def _quantised(seed: int, step: float) -> Record:
+    """A record whose measurement moves in steps much coarser than its noise, from any level at rest."""
+    record = made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.01, seed)
+    shifted = record.y + np.random.default_rng(1000 + seed).uniform(0, step)
+    return Record(record.time, record.u, np.round(shifted / step) * step)
+
+
+def _irregular(seed: int) -> Record:
+    random = np.random.default_rng(seed)
+    time = np.sort(np.arange(0.0, 60.0, 0.25) + random.uniform(-0.12, 0.12, 240))
+    u = np.where(time >= 5, 1.0, 0.0)
+    clean = 2 * FIRST_ORDER.response(time, [(float(time[np.argmax(u)]), 1.0)], (10.0,), 3.0)
+    return Record(time, u, clean + random.normal(0, 0.03, 240))
+
+
+def _several(seed: int) -> Record:
+    time = np.arange(0.0, 160.0, 0.25)
+    steps = [(5.0, 1.0), (60.0, -1.5), (110.0, 1.0)]
+    u = sum(np.where(time >= at, size, 0.0) for at, size in steps)
+    clean = 2 * FIRST_ORDER.response(time, steps, (10.0,), 3.0)
+    return Record(time, u, clean + np.random.default_rng(seed).normal(0, 0.03, len(time)))
+
+
+def _drifting(seed: int) -> Record:
+    record = made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.03, seed, length=100.0, step_at=30.0)
+    return Record(record.time, record.u, record.y + 0.01 * record.time)
+
+
+def _following(seed: int) -> Record:
+    """Noise that forgets slowly, as a filtered measurement has it."""
+    record = made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.0, seed)
+    noise = np.random.default_rng(seed).normal(0, 0.02, len(record.time))
+    for k in range(1, len(noise)):
+        noise[k] += 0.7 * noise[k - 1]
+    return Record(record.time, record.u, record.y + noise)
+
+
+@pytest.mark.parametrize(
+    "record",
+    [
+        lambda seed: _quantised(seed, 0.05),
+        lambda seed: _quantised(seed, 0.1),
+        lambda seed: _quantised(seed, 0.3),
+        _irregular,
+        _several,
+        _drifting,
+        _following,
+        lambda seed: made(FIRST_ORDER, TRUE[FIRST_ORDER][0], 0.03, seed, length=25.0),
+    ],
+    ids=["quantised", "coarse", "very coarse", "irregular", "several steps", "drift", "slow noise", "early end"],
+)
+def test_records_that_are_not_clean_keep_the_promise_of_the_intervals(record):
+    hits = np.zeros(3)
+    for seed in range(20):
+        fit = fit_structure(record(seed), FIRST_ORDER)
+        hits += [p.interval[0] <= v <= p.interval[1] for p, v in zip(fit.parameters, (2.0, 10.0, 3.0), strict=True)]
+    assert (hits >= 18).all(), hits
+
+
+def test_the_cost_of_correlation():
+    random = np.random.default_rng(0).normal(size=20_000)
+    following = random.copy()
+    for k in range(1, len(following)):
+        following[k] += 0.8 * following[k - 1]
+    assert intervals.cost_of_correlation(random) == pytest.approx(1.0, abs=0.1)
+    assert intervals.cost_of_correlation(following) == pytest.approx(1.8 / 0.2, rel=0.2)
+
+
+def test_a_measurement_that_stands_still_has_one_error_for_all_its_samples():
+    """The mean of n equal samples is as uncertain as one; of n that change levels, n times less so."""
+    mean = np.ones((400, 1))
+    still, moving = np.repeat([1.0, 1.5], 200), np.tile([1.0, 1.5], 200)
+    (wide, _), (narrow, _) = (intervals.covariance(mean, np.zeros(400), y) for y in (still, moving))
+    assert wide[0, 0] == pytest.approx(0.5**2 / 12 / 2) and narrow[0, 0] == pytest.approx(0.5**2 / 12 / 400)
+    assert intervals.quantum(np.arange(400.0)) == 0.0
+
+
+def test_intervals_shrink_with_the_noise():
+    loud, quiet = (fit_structure(made(FIRST_ORDER, TRUE[FIRST_ORDER][0], s), FIRST_ORDER) for s in (0.1, 0.01))
+    for a, b in zip(loud.parameters, quiet.parameters, strict=True):
+        assert b.half_width < 0.3 * a.half_width
+
+
+def test_several_steps_drift_and_quantisation():
+    time = np.arange(0, 200, 0.5)
+    u = np.select([time < 20, time < 80, time < 140], [0.0, 1.0, -0.5], 0.5)
+    steps = [(20.0, 1.0), (80.0, -1.5), (140.0, 1.0)]
+    clean = 3 * FIRST_ORDER.response(time, steps, (12.0,), 4.0)
+    quantised = np.round((clean + np.random.default_rng(3).normal(0, 0.02, len(time))) / 0.05) * 0.05
+    found = identify(Record(time, u, quantised))
+    assert len(found.steps.list) == 3
+    for parameter, true in zip(found.chosen.parameters, (3.0, 12.0, 4.0), strict=True):
+        assert parameter.value == pytest.approx(true, rel=0.02)
+    drifting = fit_structure(Record(time, u, clean + 0.002 * time), FIRST_ORDER)
+    assert drifting.drift == pytest.approx(0.002, rel=1e-3)
+
+
+def test_noise_level_ignores_the_response_and_the_jump():
+    time = np.arange(0, 100, 0.1)
+    noise = np.random.default_rng(1).normal(0, 0.05, len(time))
+    signal = np.where(time > 50, 10 * (1 - np.exp(-(time - 50) / 5)), 0)
+    assert noise_level(signal + noise) == pytest.approx(0.05, rel=0.1)
+
+
+def test_a_record_that_ends_too_early_is_used_with_a_warning():
+    found = identify(made(FIRST_ORDER, (2.0, 30.0, 3.0), 0.002, length=50))
+    assert any("extrapolation" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize(
+    ("u", "y", "message"),
+    [
+        (np.ones(100), np.arange(100.0), "no step found: the input 'u' is 1 from the first sample"),
+        (np.arange(100) >= 20, np.full(100, 3.0), "does not answer the step"),
+        (np.arange(100) >= 20, np.random.default_rng(0).normal(size=100), "does not answer|no model explains"),
+        (np.random.default_rng(0).normal(size=100), np.arange(100.0), "rests between steps"),
+        (np.arange(100) >= 20, np.sin(np.arange(100) * 1.9) + np.arange(100) % 17, "no model explains|does not answer"),
+    ],
+)
+def test_records_that_support_no_model_are_refused_in_words(u, y, message):
+    with pytest.raises(RecordError, match=message):
+        identify(Record(np.arange(100.0), np.asarray(u, float), y))
+
+
+def test_the_step_is_found_where_the_input_moves():
+    record = made(FIRST_ORDER, (2.0, 10.0, 3.0), 0.01, step_at=7.0)
+    steps = find_steps(record)
+    assert steps.list == [(7.0, 1.0)] and steps.before == 28
+
+
+def test_the_fit_gives_a_process():
+    fit = fit_structure(made(FIRST_ORDER, (2.0, 10.0, 3.0), 0.0), FIRST_ORDER)
+    assert isinstance(fit.process, Process)
+    assert (fit.process.static_gain, fit.process.delay) == pytest.approx((2.0, 3.0), rel=1e-3)

@@ -1,0 +1,232 @@
+"""The map, the ledger to be read and the book: everything listed, every link alive, nothing left half written."""
+
+import io
+import json
+import re
+
+import pytest
+
+from notebook_reports.ledger.harvest import Found
+from notebook_reports.memory import stamps
+from notebook_reports.pages import publish as pages
+from notebook_reports.pages.links import dead_links, read_links
+from notebook_reports.project.console import Console
+from notebook_reports.project.project import Notebook, project_at
+
+OUTLINE = """
+title = "Two tanks"
+subtitle = "recomputed"
+[[part]]
+folder = "double_tank"
+title = "The double tank"
+about = "With $K = 2$."
+[[part]]
+folder = "own_process"
+title = "Your own"
+"""
+VALUES = """
+document = "double-tank"
+place = "Table 5"
+value = [
+  { id = "rise", quantity = "rise time, $t_r$", printed = "3.66", unit = "s" },
+  { id = "open", quantity = "open", printed = "1.0" },
+]
+claim = [{ id = "settles", says = "It settles." }]
+"""
+
+
+def found(id="rise", table="value", verdict="reproduced", cell=2, **fields):
+    value = {"quantity": "rise time, $t_r$", "printed": "3.66", "unit": "s", "kind": "computed"}
+    value |= {"exact": "3.6634812345678", "from_inputs": "", "reason": ""}
+    claim = {"says": "It settles.", "evidence": "within 4 s"}
+    misprint = {"kind": "formula", "printed": "h/Ti", "corrected": "K*h/Ti", "misleads": "yes", "note": "K is lost"}
+    told = {"value": value, "claim": claim, "misprint": misprint}[table] | fields
+    return Found(
+        "double_tank/01", cell, "c2", "Results of `x`", table, "double-tank", "Table 5", id, verdict, told
+    ).data()
+
+
+class Shelf:
+    """A project as a build leaves it, without running anything."""
+
+    def __init__(self, root):
+        self.project = project_at(root)
+        self.said = ""
+        self.write("notebooks/book.toml", OUTLINE)
+        self.write("documents/double_tank/printed/table5.toml", VALUES)
+        term = '{ en = "gain", sv = "förstärkning", pl = "wzmocnienie", symbol = "$K$", unit = "1" }'
+        self.write("documents/glossary.toml", f"term = [{term}]")
+        for name in ("ledger.csv", "claims.csv", "misprints.csv"):
+            self.write(f"reports/{name}", "document\n")
+
+    def write(self, name, text):
+        path = self.project.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def add(self, id, *records, title="A chapter"):
+        """A notebook that was built: one of prose, one of code."""
+        source = self.write(f"notebooks/{id}.ipynb", "{}")
+        output = {"output_type": "display_data", "data": {"text/plain": "shown"}, "metadata": {}}
+        cells = [
+            {"cell_type": "markdown", "id": "c1", "metadata": {}, "source": f"# {title}\n\n## Results of `x`"},
+            {"cell_type": "code", "id": "c2", "metadata": {}, "source": "x", "execution_count": 1, "outputs": [output]},
+        ]
+        notebook = Notebook(id, source)
+        executed = {"cells": cells, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+        stamps.executed_path(self.project, notebook).parent.mkdir(parents=True, exist_ok=True)
+        stamps.executed_path(self.project, notebook).write_text(json.dumps(executed))
+        stamps.save_records(self.project, notebook, list(records))
+        stamps.save(self.project, notebook, stamps.Stamp({}, [], "", title, 1.0, {}, "", []))
+        for format in ("pdf", "ipynb"):
+            self.write(f"reports/{id}.{format}", "x" * 2000)
+        self.write(f"reports/{id}.html", '<p id="cell-2">shown</p>')
+
+    def publish(self):
+        out = io.StringIO()
+        failures = pages.publish(self.project, Console(out))
+        self.said = out.getvalue()
+        return [f.what for f in failures]
+
+    def read(self, name):
+        return (self.project.reports / name).read_bytes()
+
+    def there(self):
+        return [name for name in pages.NAMES if (self.project.reports / name).exists()]
+
+
+@pytest.fixture
+def shelf(tmp_path):
+    shelf = Shelf(tmp_path)
+    shelf.add("double_tank/01", found(), found("settles", "claim", "holds"), found("eq-1", "misprint", "confirmed"))
+    shelf.add("own_process/design", title="Design with $K$")
+    return shelf
+
+
+def test_all_three_and_then_nothing_to_do(shelf):
+    assert shelf.publish() == []
+    assert shelf.there() == ["loopbook.pdf", "ledger.html", "index.html"]
+    assert re.match(r"ok +reports/loopbook.pdf, ledger.html, index.html  \d", shelf.said)
+    first = {name: shelf.read(name) for name in shelf.there()}
+    assert first["loopbook.pdf"].startswith(b"%PDF")
+    assert shelf.publish() == [] and shelf.said == ""
+    pages.withdraw(shelf.project)
+    assert shelf.publish() == [] and {name: shelf.read(name) for name in shelf.there()} == first
+
+
+def test_every_link_of_the_map_leads_somewhere_and_nothing_is_fetched(shelf):
+    shelf.publish()
+    text = shelf.read("index.html").decode()
+    links, _ = read_links(text)
+    wanted = {f"{id}.{f}" for id in ("double_tank/01", "own_process/design") for f in ("pdf", "html", "ipynb")}
+    assert wanted | {"loopbook.pdf", "ledger.html", "ledger.csv", "ledger.html#Errata"} <= set(links)
+    assert "<script" not in text and "http" not in re.sub(r"http://www.w3.org/\S+", "", text)
+    assert "1 reproduced" in text and "1 misprint" in text and "<math" in text and "typst" in text
+    assert text.index("The double tank") < text.index("Your own")
+
+
+def test_a_row_of_the_ledger_leads_to_the_cell_that_shows_it(shelf):
+    shelf.publish()
+    text = shelf.read("ledger.html").decode()
+    row = next(r for r in re.findall(r"<tr>.*?</tr>", text) if "3.66 s" in r)
+    assert 'href="double_tank/01.html#cell-2"' in row and "3.663" in row and "reproduced" in row
+    assert "Results of <code>x</code>" in row
+    assert "förstärkning" in text and "open" in text.partition("No notebook checks")[2][:200]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "why"),
+    [
+        ("notebooks/book.toml", OUTLINE + "# changed\n", "notebooks/book.toml"),
+        ("documents/double_tank/printed/table5.toml", VALUES + "# changed\n", "double_tank/printed/table5.toml"),
+        ("reports/index.html", "mine", "reports/index.html is not as it was written"),
+    ],
+)
+def test_written_again_with_the_reason(shelf, name, text, why):
+    shelf.publish()
+    shelf.write(name, text)
+    assert shelf.publish() == [] and why in shelf.said and "rebuilt: " in shelf.said
+
+
+def test_an_unlisted_notebook_fails_by_its_name(shelf):
+    shelf.publish()
+    shelf.add("essays/extra")
+    assert shelf.publish() == ["notebooks/essays/extra.ipynb is in no part of notebooks/book.toml"]
+    assert shelf.there() == [] and pages.reasons(shelf.project) == ["first build"]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (OUTLINE.replace("own_process", "gone"), "no notebook in notebooks/gone"),
+        (OUTLINE + '[[part]]\nfolder = "own_process"\ntitle = "again"\n', "two parts for own_process"),
+        ('title = "x"', "notebooks/book.toml: part is missing"),
+        ("title =", "notebooks/book.toml: "),
+    ],
+)
+def test_an_outline_that_does_not_fit(shelf, text, told):
+    shelf.write("notebooks/book.toml", text)
+    [failure] = shelf.publish()
+    assert told in failure
+
+
+def test_a_dead_link_fails_by_its_name(shelf):
+    shelf.write("reports/double_tank/01.html", "<p>no anchors</p>")
+    assert shelf.publish() == ["reports/ledger.html: a link to #cell-2, which is nowhere in double_tank/01.html"]
+    assert shelf.there() == []
+
+
+def test_links_are_looked_up_among_the_files_and_among_the_pages_not_written_yet(tmp_path):
+    (tmp_path / "b.html").write_text('<p id="there">')
+    page = b'<h1 id="top"><a href="#top"><a href="b.html#there"><a href="c.html#new"><a href="https://example.org">'
+    page += b'<a href="gone.pdf"><a href="#nowhere"><a href="b.html#away"><img src="p.png">'
+    assert dead_links("a.html", tmp_path, {"a.html": page, "c.html": b'<p id="new">'}) == [
+        "a link to gone.pdf, which is not there",
+        "a link to #nowhere, which is nowhere in a.html",
+        "a link to #away, which is nowhere in b.html",
+        "a link to p.png, which is not there",
+    ]
+
+
+def test_a_record_that_the_book_cannot_show_fails_by_its_name(shelf):
+    shelf.add("double_tank/01", found(cell=9))
+    [failure] = shelf.publish()
+    assert "a link to no place #cell-9 in double_tank/01 of this book" in failure
+
+
+def test_without_every_report_there_are_no_pages(shelf):
+    shelf.publish()
+    (shelf.project.reports / "own_process/design.pdf").unlink()
+    shelf.add("double_tank/02")
+    (shelf.project.reports / "double_tank/02.html").unlink()
+    assert shelf.publish() == [] and shelf.there() == []
+    assert "not built double_tank/02, own_process/design" in shelf.said
+
+
+def test_a_build_of_all_in_all_formats_publishes(shelf):
+    formats = ("pdf", "html", "ipynb")
+    assert pages.publishes(shelf.project, True, formats)
+    assert not pages.publishes(shelf.project, False, formats)
+    assert not pages.publishes(shelf.project, True, ("html",))
+    (shelf.project.notebooks_folder / "book.toml").unlink()
+    assert not pages.publishes(shelf.project, True, formats)
+
+
+def test_build_writes_them_and_names_what_is_unlisted(bench):
+    def export(content, format, notebook, title, engine):
+        return "".join(f'<p id="cell-{n}"></p>' for n, _ in enumerate(content["cells"], 1)).encode()
+
+    outline = OUTLINE.partition('[[part]]\nfolder = "own')[0]
+    bench.write("double_tank/01", "# Title\n\n## Results", bench.record("rise", printed="3.66", exact="3.6634"))
+    (bench.root / "notebooks" / "book.toml").write_text(outline, encoding="utf-8")
+    formats = ("pdf", "html", "ipynb")
+    assert bench.build(exporter=export, formats=formats).code == 0
+    # only the tables that hold a row are written, and the map links what is there
+    assert {"index.html", "ledger.html", "loopbook.pdf"} <= set(bench.reports())
+    assert bench.build(exporter=export, formats=formats).code == 0 and "reports/" not in bench.said
+    bench.write("essays/02", "# Other", "1")
+    outcome = bench.build(exporter=export, formats=formats)
+    assert outcome.code == 1
+    assert "notebooks/essays/02.ipynb is in no part of notebooks/book.toml" in bench.said
+    assert not {"index.html", "ledger.html", "loopbook.pdf"} & set(bench.reports())
