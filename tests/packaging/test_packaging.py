@@ -3,6 +3,7 @@
 import re
 import subprocess
 import tomllib
+from fnmatch import fnmatch
 from pathlib import Path
 
 import lock
@@ -81,3 +82,10 @@ def test_the_readme_example_runs(capsys):
     exec(compile(example, "README.md", "exec"), {})
     Ms, iae = map(float, capsys.readouterr().out.split())
     assert 1.3 < Ms < 1.6 and iae > 0
+
+
+def test_no_folder_of_tests_is_left_out(request):
+    """pytest passes over some names of folders without a word, such as `build`."""
+    left_out = request.config.getini("norecursedirs")
+    folders = {p.parent.relative_to(ROOT) for p in (ROOT / "tests").rglob("test_*.py")}
+    assert [f for f in folders for name in f.parts if any(fnmatch(name, pattern) for pattern in left_out)] == []
