@@ -243,6 +243,7 @@ def reporter() -> Exporter:
                 engine=engine,
                 assets=notebook.path.parent,
                 strict_alt=notebook.own,
+                mode="strict" if notebook.own else "mend",
             )
 
     return call

@@ -34,4 +34,15 @@ class ExportError(RuntimeError):
 
 
 class CannotShow(ValueError):
-    """One piece of a cell has no form a report can show; the reader of the notebook adds the cell."""
+    """One piece of a cell has no form a report can show; the reader of the notebook adds the cell.
+
+    The message says what is wrong and how to mend it, to the writer of the notebook. kind, reason, text, address: for
+    the reader of a page where a `model.Mend` stands instead; the reason is the message where none is given.
+    """
+
+    def __init__(self, message: str, kind: str = "output", reason: str = "", text: str = "", address: str = ""):
+        super().__init__(message)
+        self.kind = kind
+        self.reason = reason or message
+        self.text = text
+        self.address = address

@@ -25,3 +25,16 @@ def as_text(latex: str) -> str:
     from notebook_reports.mathematics import latex_to_text
 
     return latex_to_text(latex) or "formula"
+
+
+@functools.lru_cache(maxsize=20_000)
+def understood(latex: str) -> bool:
+    """Is this a formula by itself?"""
+    from notebook_reports.mathematics import MathError
+
+    try:
+        as_typst(latex, True)
+        as_text(latex)
+    except MathError:
+        return False
+    return True

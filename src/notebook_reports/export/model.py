@@ -4,6 +4,7 @@ A notebook is read once into these blocks (`report.read`); the PDF and the HTML 
 stays LaTeX here, pictures are bytes, text is plain characters: nothing is markup.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,9 +21,10 @@ class Code:
 
 @dataclass
 class Math:
-    """Mathematics inside a line, LaTeX without delimiters."""
+    """Mathematics inside a line, LaTeX without delimiters. small: as small as it has to be."""
 
     latex: str
+    small: bool = False
 
 
 @dataclass
@@ -37,7 +39,8 @@ class Styled:
 class Link:
     """url as written; `kind` and `target` are settled when the whole report is known.
 
-    kind: internal (target is an anchor), notebook (target is "name" or "name#anchor"), external (target is a URL).
+    kind: internal (target is an anchor), notebook (target is "name" or "name#anchor"), external (target is a URL),
+    nowhere (its words are shown, and a mend says where it should lead).
     """
 
     url: str
@@ -54,13 +57,25 @@ class PageNumber:
 
 
 @dataclass
+class Coloured:
+    """Text in a colour of its own, on a ground of its own: "#rrggbb", or "" for the page's."""
+
+    children: list["Inline"]
+    ink: str = ""
+    ground: str = ""
+
+
+@dataclass
 class Picture:
-    """kind: svg, png, jpg, gif or webp. width: as the notebook asks for, in CSS pixels, None for the picture's own."""
+    """kind: svg, png, jpg, gif or webp. width, height: as the notebook asks for, in CSS pixels, None for the picture's
+    own. share: of the text's width, instead of a width in pixels."""
 
     data: bytes
     kind: str
     alt: str
     width: float | None = None
+    height: float | None = None
+    share: float | None = None
 
 
 @dataclass
@@ -83,7 +98,24 @@ class Note:
     blocks: list["Block"]
 
 
-Inline = Text | Code | Math | Styled | Link | PageNumber | Picture | Break | Anchor | Note
+@dataclass
+class Mend:
+    """Stands where something cannot be shown, as a block or inside a line.
+
+    kind: what is missing, one of `mends.KINDS`. reason: why, a sentence without its end. text: the alternative text, or
+    the source of a formula. address: where it is. number: counts in the report. remark: nothing is missing, but
+    something is shown in another way than the notebook has it.
+    """
+
+    kind: str
+    reason: str
+    text: str = ""
+    address: str = ""
+    remark: bool = False
+    number: int = 0
+
+
+Inline = Text | Code | Math | Styled | Coloured | Link | PageNumber | Picture | Break | Anchor | Note | Mend
 
 
 @dataclass
@@ -103,11 +135,12 @@ class Paragraph:
 
 @dataclass
 class Display:
-    """A formula on its own lines. label: the number at the right, "" for none."""
+    """A formula on its own lines. label: the number at the right, "" for none. small: as small as it has to be."""
 
     latex: str
     label: str = ""
     anchor: str = ""
+    small: bool = False
 
 
 @dataclass
@@ -121,18 +154,31 @@ class Listing:
 
 @dataclass
 class Item:
-    """checked: None where the item is no task."""
+    """checked: None where the item is no task. value: the number of the item where it is not one more than the last."""
 
     blocks: list["Block"]
     checked: bool | None = None
+    value: int | None = None
 
 
 @dataclass
 class Bullets:
+    """style: of the numbers, one of 1 a A i I."""
+
     items: list[Item]
     ordered: bool = False
     start: int = 1
     tight: bool = True
+    style: str = "1"
+
+    @property
+    def numbers(self) -> list[int]:
+        """The number of each item."""
+        found: list[int] = []
+        for item in self.items:
+            following = found[-1] + 1 if found else self.start
+            found.append(following if item.value is None else item.value)
+        return found
 
 
 @dataclass
@@ -142,6 +188,14 @@ class Definitions:
 
 @dataclass
 class Quote:
+    blocks: list["Block"]
+
+
+@dataclass
+class Alert:
+    """A box that asks for attention. kind: info, success, warning or danger."""
+
+    kind: str
     blocks: list["Block"]
 
 
@@ -162,6 +216,8 @@ class Cell:
     align: str = "left"
     head: bool = False
     mark: str = ""
+    ink: str = ""
+    ground: str = ""
 
 
 @dataclass
@@ -186,7 +242,7 @@ class Figure:
     number: str = ""
 
 
-Block = Heading | Paragraph | Display | Listing | Bullets | Definitions | Quote | Rule | Grid | Figure
+Block = Heading | Paragraph | Display | Listing | Bullets | Definitions | Quote | Alert | Rule | Grid | Figure | Mend
 
 
 @dataclass
@@ -200,7 +256,8 @@ class ReportCell:
 
 @dataclass
 class Report:
-    """A notebook, read. name: as errors call it, for example "double_tank/03_pole_placement"."""
+    """A notebook, read. name: as errors call it, for example "double_tank/03_pole_placement". mends: what stands for
+    something that cannot be shown, in reading order, with the number of its cell. aliases: other names of anchors."""
 
     name: str
     title: list[Inline]
@@ -211,6 +268,8 @@ class Report:
     language: str = "en"
     author: str = ""
     anchors: set[str] = field(default_factory=set)
+    aliases: dict[str, str] = field(default_factory=dict)
+    mends: list[tuple[int, Mend]] = field(default_factory=list)
 
     @property
     def plain_title(self) -> str:
@@ -228,9 +287,9 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Item() | Note():
+        case ReportCell() | Quote() | Alert() | Item() | Note():
             return node.blocks
-        case Paragraph() | Heading() | Styled() | Link() | Cell():
+        case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children
         case Bullets():
             return node.items
@@ -250,6 +309,60 @@ def walk(node: Any):
         yield from walk(child)
 
 
+def rewrite(node: Any, change: Callable[[Any], list[Any] | None]) -> None:
+    """Replace nodes everywhere below, in place. change: gives what stands instead of a node, None to keep it."""
+
+    def changed(nodes: list[Any]) -> None:
+        kept = []
+        for child in nodes:
+            new = change(child)
+            if new is None:
+                rewrite(child, change)
+                kept.append(child)
+            else:
+                kept += new
+        nodes[:] = kept
+
+    match node:
+        case Definitions():
+            for term, blocks in node.items:
+                changed(term)
+                changed(blocks)
+        case Grid():
+            changed(node.caption)
+            changed(node.cells)
+            for note in node.notes:
+                changed(note)
+        case Figure():
+            changed(node.caption)
+        case _:
+            found = children(node)
+            changed(found)
+
+
+def words_only(nodes: list[Inline], pictures: bool = True) -> list[Inline]:
+    """A heading as contents show it: without notes, mends and anchors; links are their words, and so are pictures, or
+    these are left out."""
+    kept: list[Inline] = []
+    for node in nodes:
+        match node:
+            case Anchor() | Note() | Mend():
+                continue
+            case Picture():
+                kept += [Text(node.alt)] if pictures else []
+            case Break():
+                kept.append(Text(" "))
+            case Link() if words_only(node.children, pictures) != node.children:
+                kept += words_only(node.children, pictures)
+            case Styled():
+                kept.append(Styled(node.style, words_only(node.children, pictures)))
+            case Coloured():
+                kept.append(Coloured(words_only(node.children, pictures), node.ink, node.ground))
+            case _:
+                kept.append(node)
+    return kept
+
+
 def plain(nodes: list[Inline], math: str = "latex") -> str:
     """The characters of inline nodes.
 
@@ -266,8 +379,10 @@ def plain(nodes: list[Inline], math: str = "latex") -> str:
                 from notebook_reports.export.formulas import as_text
 
                 parts.append(as_text(latex))
-            case Styled() | Link():
+            case Styled() | Coloured() | Link():
                 parts.append(plain(node.children, math))
+            case Mend(text=text):
+                parts.append(text)
             case Break():
                 parts.append(" ")
             case Picture():

@@ -50,8 +50,8 @@ def read_page(page: Page, strict_alt: bool = True) -> Report:
     cells = []
     for number, content in enumerate(page.content, start=1):
         reading.cell = number
-        with reading.guard():
-            cells.append(ReportCell(number, _content(content, reading), f"cell-{number}"))
+        blocks = reading.attempt(lambda content=content: _content(content, reading))
+        cells.append(ReportCell(number, blocks, f"cell-{number}"))
     report = Report(page_name(page), [Text(page.title)], "", cells)
     collect_anchors(report, reading)
     settle_links(report, reading)

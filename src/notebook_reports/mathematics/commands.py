@@ -1,6 +1,5 @@
 """What each LaTeX command turns into: one small function a command, collected in `COMMANDS`."""
 
-import re
 import unicodedata
 from collections.abc import Callable
 from functools import partial
@@ -9,9 +8,9 @@ from typing import TYPE_CHECKING
 from notebook_reports.mathematics import environments, symbols, textmode
 from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics.alphabets import combine
-from notebook_reports.mathematics.errors import nearest
 from notebook_reports.mathematics.lengths import _LENGTH, length_in_em
 from notebook_reports.mathematics.lexer import Token
+from notebook_reports.mathematics.more_commands import MORE
 from notebook_reports.mathematics.spacing import edges
 
 if TYPE_CHECKING:
@@ -28,6 +27,8 @@ INFIX: dict[str, Callable[[list[n.Node], list[n.Node]], n.Node]] = {
     "over": n.Fraction,
     "atop": partial(n.Fraction, line=False),
     "choose": binomial,
+    "brace": lambda num, den: n.Fenced("{", [n.Fraction(num, den, line=False)], "}"),
+    "brack": lambda num, den: n.Fenced("[", [n.Fraction(num, den, line=False)], "]"),
 }
 
 
@@ -185,23 +186,9 @@ def _font_switch(p: "Parser", token: Token) -> None:
 
 
 def _text(p: "Parser", token: Token) -> n.Node:
-    raw, start = p.lexer.raw_argument(str(token))
+    raw, start = p.lexer.raw_or_single(str(token))
     found = textmode.text(p, start, start + len(raw), symbols.TEXT_FONTS[token.text])
     return found[0] if len(found) == 1 else n.Group(found)
-
-
-def _color(p: "Parser", token: Token) -> n.Node:
-    raw, start = p.lexer.raw_argument(str(token))
-    name = raw.strip()
-    color = symbols.COLORS.get(name, name)
-    if not re.fullmatch(r"#[0-9a-fA-F]{6}", color):
-        hint = nearest(name, symbols.COLORS, "")
-        raise p.lexer.error(f"unknown colour {name}{hint}; known: {', '.join(symbols.COLORS)} and #rrggbb", start)
-    return n.Colored(p.argument(token), color.lower())
-
-
-def _no_color(p: "Parser", token: Token) -> None:
-    raise p.error("\\color means different things in LaTeX and on the web: write \\textcolor{red}{…}", token)
 
 
 # -- the rest --------------------------------------------------------------------------------------------------------
@@ -217,10 +204,6 @@ def _strut(p: "Parser", token: Token) -> n.Node:
 
 def _cancel(p: "Parser", token: Token) -> n.Node:
     return n.Cancel(p.argument(token), token.text)
-
-
-def _label(p: "Parser", token: Token) -> None:
-    p.lexer.raw_argument(str(token))
 
 
 def tag(p: "Parser", token: Token) -> n.TagNode:
@@ -270,14 +253,12 @@ COMMANDS: dict[str, Handler] = {
     **{name: lambda p, token: n.Symbol(symbols.ITALIC_GREEK[token.text]) for name in symbols.ITALIC_GREEK},
     **{name: lambda p, token: n.Classed(p.argument(token), symbols.CLASSES[token.text]) for name in symbols.CLASSES},
     **{name: lambda p, token: n.StyleSwitch(symbols.STYLES[token.text]) for name in symbols.STYLES},
-    "textcolor": _color,
-    "color": _no_color,
     **dict.fromkeys(("phantom", "hphantom", "vphantom"), _phantom),
     **dict.fromkeys(("strut", "mathstrut"), _strut),
     **dict.fromkeys(("boxed", "fbox"), lambda p, token: n.Boxed(p.argument(token))),
     **dict.fromkeys(("cancel", "bcancel", "xcancel", "sout"), _cancel),
     "substack": environments.substack,
     "begin": environments.begin,
-    "label": _label,
+    **MORE,
     **dict.fromkeys(("notag", "nonumber", "relax", "allowbreak", "nobreak", "displaylimits"), lambda p, token: None),
 }

@@ -101,6 +101,17 @@ def substack(p: "Parser", token: Token) -> n.Node:
     return _grid(p, token, "substack", layout, "c", rows, [], hlines, 1)
 
 
+def braced(p: "Parser", token: Token, name: str) -> n.Node:
+    """Plain TeX's form of an environment: ``\\matrix{a & b \\cr c & d}``."""
+    opened = p.lexer.next()
+    if not opened.is_char("{"):
+        raise p.error(f"{token} needs an argument in braces", opened)
+    layout = LAYOUTS[name]
+    rows, hlines = _rows(p, layout, token)
+    p.close_brace(opened)
+    return _grid(p, token, name, layout, layout.align, rows, [], hlines, layout.columns)
+
+
 def _columns(p: "Parser", raw: tuple[str, int], what: str, most: int) -> tuple[str, list[int]]:
     """``{l|cr}``: the alignment of each column, and after how many columns lines stand."""
     text, start = raw

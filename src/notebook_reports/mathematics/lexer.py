@@ -95,6 +95,14 @@ class Lexer:
             i += 1
         raise self.error(f"{{ of {command} is never closed: add }}", token.position)
 
+    def raw_or_single(self, command: str) -> tuple[str, int]:
+        """The characters of an argument in braces, or of the one command or character that stands there."""
+        token = self.peek()
+        if token.is_char("{") or token.kind == "end" or token.is_char("}&"):
+            return self.raw_argument(command)
+        self.next()
+        return self.latex[token.position : token.end], token.position
+
     def raw_option(self) -> tuple[str, int] | None:
         """The characters of an argument in square brackets, if there is one."""
         token = self.peek()

@@ -246,6 +246,14 @@ class Colored(Node):
 
 
 @dataclass
+class Sized(Node):
+    """Content in another size. factor: of the size around it."""
+
+    body: list[Node]
+    factor: float
+
+
+@dataclass
 class TagNode(Node):
     """An equation number of a formula of one line. start, end: where ``\\tag{…}`` stands in the LaTeX."""
 

@@ -12,6 +12,7 @@ from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics.alphabets import combine, styled
 from notebook_reports.mathematics.errors import MathError, nearest
 from notebook_reports.mathematics.lexer import Lexer, Token
+from notebook_reports.mathematics.more_commands import SWITCHES
 
 MAX_DEPTH = 40
 _WORD_FONTS = {"normal", "bold", "italic", "sans", "mono"}
@@ -98,6 +99,15 @@ class Parser:
                     if any(isinstance(item, n.Middle) for item in found + rest):
                         raise self.error(f"{token} and \\middle in one group: put {token} into braces", token)
                     return [commands.INFIX[token.text](found, rest)]
+                elif token.is_command(*SWITCHES):
+                    self.lexer.next()
+                    switched = SWITCHES[token.text](self, token)
+                    if isinstance(switched, n.Node):
+                        found.append(self.with_scripts(switched))
+                        continue
+                    rest = self.items(in_fence, tags)
+                    held = [item for item in rest if isinstance(item, n.TagNode | n.Middle)]
+                    return [*found, switched([item for item in rest if item not in held]), *held]
                 elif token.is_command("tag"):
                     self.lexer.next()
                     if not tags:
@@ -158,6 +168,10 @@ class Parser:
         """One atom with its scripts, or None for a command that shows nothing."""
         token = self.lexer.peek()
         base = n.Group([]) if token.is_char("^_'") else self.atom(self.lexer.next())
+        return self.with_scripts(base)
+
+    def with_scripts(self, base: n.Node | None) -> n.Node | None:
+        """A node with the scripts that follow it."""
         if base is None or isinstance(base, n.Space | n.StyleSwitch):
             return base
         found = n.Scripts(base)
@@ -278,7 +292,7 @@ class Parser:
             raise self.leftover(token)
         if token.is_command("tag", *commands.INFIX):
             raise self.error(f"{token} cannot be an argument by itself: put the argument into braces", token)
-        known = {*symbols.SYMBOLS, *symbols.GREEK, *commands.COMMANDS, *commands.INFIX, "left", "tag"}
+        known = {*symbols.SYMBOLS, *symbols.GREEK, *commands.COMMANDS, *commands.INFIX, *SWITCHES, "left", "tag"}
         raise self.error(f"unknown command {token}{nearest(name, known)}", token)
 
     def with_font(self, font: str, command: Token) -> list[n.Node]:
@@ -291,6 +305,10 @@ class Parser:
     def delimiter(self, command: Token) -> str:
         """The delimiter after ``\\left`` and its kin; "" for the invisible one."""
         token = self.lexer.next()
+        if token.is_char("{") and command.text != "left":
+            inner = self.delimiter(command)
+            self.close_brace(token)
+            return inner
         if str(token) not in symbols.DELIMITERS:
             known = [d.removeprefix("\\") for d in symbols.DELIMITERS if d.startswith("\\")]
             hint = nearest(token.text, known) if token.kind == "command" else ""

@@ -143,7 +143,7 @@ ESCAPES = {"%": "%", "#": "#", "&": "&", "$": "$", "_": "_"}
 FUNCTIONS = _words(
     """
     arccos arcsin arctan arccot arcsec arccsc arg cos cosh cot coth csc csch sec sech deg dim exp hom ker lg ln log sin
-    sinh tan tanh arsinh arcosh artanh arcoth
+    sinh tan tanh arsinh arcosh artanh arcoth sgn sign tr Tr rank diag erf erfc sinc Var Cov
     """
 )
 LIMIT_FUNCTIONS = {
@@ -152,6 +152,8 @@ LIMIT_FUNCTIONS = {
     "liminf": "lim inf",
     "injlim": "inj lim",
     "projlim": "proj lim",
+    "argmin": "arg min",
+    "argmax": "arg max",
 }
 
 SPACES = {
@@ -245,6 +247,10 @@ FONTS = {
     "bm": "boldsymbol",
     "pmb": "boldsymbol",
     "mathbfit": "boldsymbol",
+    "bold": "bold",
+    "Bbb": "double",
+    "mathds": "double",
+    "mathbbm": "double",
 }
 FONT_SWITCHES = {
     "rm": "normal",
@@ -254,6 +260,8 @@ FONT_SWITCHES = {
     "tt": "mono",
     "cal": "script",
     "frak": "fraktur",
+    "mit": "italic",
+    "scr": "script",
 }
 TEXT_FONTS = {
     "text": "normal",
@@ -267,21 +275,12 @@ TEXT_FONTS = {
     "emph": "italic",
     "texttt": "mono",
     "textsf": "sans",
+    "textsc": "normal",
+    "textsl": "italic",
+    "textmd": "normal",
 }
 STYLES = {"displaystyle": "display", "textstyle": "text", "scriptstyle": "script", "scriptscriptstyle": "sscript"}
 CLASSES = {f"math{cls}": cls for cls in ("ord", "op", "bin", "rel", "open", "close", "punct")} | {"mathinner": "ord"}
-COLORS = {
-    "black": "#000000",
-    "gray": "#808080",
-    "red": "#c00000",
-    "green": "#007a33",
-    "blue": "#0000c0",
-    "cyan": "#007a8a",
-    "magenta": "#a0007a",
-    "orange": "#b45300",
-    "purple": "#6a2c91",
-    "brown": "#7a4a1e",
-}
 
 SYMBOLS: dict[str, tuple[str, str]] = {
     **{name: (char, "ord") for table in (ORDINARY, DOTS, BARS) for name, char in table.items()},

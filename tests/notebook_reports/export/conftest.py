@@ -68,7 +68,7 @@ def typst(nb, **particulars):
     from notebook_reports.export.exporters.pdf import PdfExporter
     from notebook_reports.export.write.typst_engine import compile_turning
 
-    told = {"name": "folder/sample", **particulars}
+    told = {"name": "folder/sample", "mode": "strict", **particulars}
     exporter = PdfExporter()
     report = exporter.report(nb, {"metadata": {}, "loopbook": told})
     sources = []

@@ -1,14 +1,17 @@
 """What the exporters share."""
 
 import functools
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from nbconvert.exporters.templateexporter import TemplateExporter
-from traitlets import Bool, Unicode, default
+from traitlets import Bool, Enum, Unicode, default
 
 from notebook_reports.export.errors import ExportError, Problem
 from notebook_reports.export.formulas import as_mathml, as_text, as_typst
+from notebook_reports.export.mends import MODES, lines
 from notebook_reports.export.model import Display, Math, Report, walk
 from notebook_reports.export.read.notebook import read
 from notebook_reports.export.write.typst_engine import TypstFailed, cell_finder, explain
@@ -29,6 +32,11 @@ class ReportExporter(TemplateExporter):
     language = Unicode("en", help="Language of the text, for readers and hyphenation.").tag(config=True)
     author = Unicode("loopbook", help="Author in the metadata.").tag(config=True)
     strict_alt = Bool(False, help="Fail where a picture has no alternative text.").tag(config=True)
+    mode = Enum(
+        MODES,
+        "mend",
+        help="What cannot be shown: a numbered box in its place and a list at the end (mend), or an error (strict).",
+    ).tag(config=True)
 
     export_from_notebook = None
 
@@ -48,8 +56,50 @@ class ReportExporter(TemplateExporter):
             "author": self.author,
             "folder": Path(metadata["path"]) if metadata.get("path") is not None else None,
             "strict_alt": self.strict_alt,
+            "mode": self.mode,
         }
         return read(nb, **{**particulars, **told})
+
+    def mended(self, resources: dict[str, Any]) -> bool:
+        """Is this export one that mends what it cannot show?"""
+        return resources.get("loopbook", {}).get("mode", self.mode) == "mend"
+
+    def tell(self, report: Report, resources: dict[str, Any]) -> None:
+        """Say what was mended, on the standard error of the nbconvert command, and in the resources."""
+        resources["loopbook_mends"] = report.mends
+        for line in lines(report):
+            self.log.warning(line)
+
+    def from_filename(self, filename, resources=None, **kw):
+        """What nbconvert's command calls; a notebook that cannot be exported is one message there, not a traceback."""
+        with one_message():
+            return super().from_filename(filename, resources=resources, **kw)
+
+    def from_file(self, file_stream, resources=None, **kw):
+        """The same for a stream."""
+        with one_message():
+            return super().from_file(file_stream, resources=resources, **kw)
+
+
+@contextmanager
+def one_message() -> Iterator[None]:
+    """Inside nbconvert's command, end it with the message of an error that its user can mend, and exit code 1."""
+    from nbformat import ValidationError
+    from nbformat.reader import NotJSONError
+
+    try:
+        yield
+    except (ExportError, NotJSONError, ValidationError, OSError, UnicodeDecodeError) as error:
+        if not any(cls.__name__ == "NbConvertApp" for cls in type(_application()).__mro__):
+            raise
+        first = str(error) if isinstance(error, ExportError) else f"this is no notebook that can be read: {error}"
+        raise SystemExit(first) from None
+
+
+def _application() -> Any:
+    from traitlets.config import Application
+
+    return Application.instance() if Application.initialized() else None
 
 
 @functools.cache

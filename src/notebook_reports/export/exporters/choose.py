@@ -30,13 +30,15 @@ def export(
     engine: str = "typst",
     assets: Path | None = None,
     strict_alt: bool = True,
+    mode: str = "strict",
 ) -> bytes:
     """The report of one executed notebook.
 
     nb: a notebook node of nbformat 4. format: "pdf" or "html". name: "folder/notebook", as errors and links call it.
     title: default the first top heading. document, chapter: for the title block and the running head. engine: "typst",
     or "latex" where TeX and pandoc are installed. assets: the folder where relative images are looked up.
-    strict_alt: a picture without alternative text is an error.
+    strict_alt: a picture without alternative text is an error. mode: "strict", or "mend", which shows a numbered box in
+    place of what a page cannot show and lists all of them at its end.
     Equal input gives equal bytes. Raises ExportError; ValueError for an unknown format or engine.
     """
     if format not in FORMATS:
@@ -51,6 +53,7 @@ def export(
         "chapter": chapter,
         "language": language,
         "strict_alt": strict_alt,
+        "mode": mode,
     }
     metadata = {"name": name.rpartition("/")[2], **({} if assets is None else {"path": str(assets)})}
     output, _ = _exporter(kind).from_notebook_node(nb, {"metadata": metadata, "loopbook": told})

@@ -12,8 +12,10 @@ from traitlets import default
 
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, ReportExporter, problems
-from notebook_reports.export.model import Heading, Report
+from notebook_reports.export.mends import number
+from notebook_reports.export.model import Heading, Report, words_only
 from notebook_reports.export.write.html import HtmlWriter
+from notebook_reports.export.write.mending import mend_formulas
 
 
 @functools.cache
@@ -30,7 +32,7 @@ def contents(report: Report, writer: HtmlWriter) -> str:
 
     def entry(heading: Heading) -> str:
         number = f'<span class="number">{heading.number}</span> ' if heading.number else ""
-        return f'<a href="#{escape(heading.anchor)}">{number}{writer.inline(heading.children)}</a>'
+        return f'<a href="#{escape(heading.anchor)}">{number}{writer.inline(words_only(heading.children))}</a>'
 
     parts, depth = [], 0
     for heading in headings:
@@ -63,7 +65,12 @@ class HtmlExporter(ReportExporter):
     def from_notebook_node(self, nb, resources=None, **kw):
         """The HTML text, and the resources."""
         resources = self._init_resources(resources)
-        text = self.render(self.report(nb, resources))
+        report = self.report(nb, resources)
+        if self.mended(resources):
+            mend_formulas(report, "mathml")
+            number(report)
+            self.tell(report, resources)
+        text = self.render(report)
         resources["output_extension"] = self.file_extension
         return text, resources
 

@@ -16,12 +16,12 @@ from notebook_reports.export.exporters.base import (
     problems,
     support_files,
 )
+from notebook_reports.export.mends import number
 from notebook_reports.export.model import Report
+from notebook_reports.export.write.mending import Written, compile_mending, mend_formulas
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
 from notebook_reports.export.write.typst_engine import TypstFailed, compile_turning
 from notebook_reports.export.write.typst_text import literal
-
-"""Headings from which on a report has a table of contents."""
 
 
 class PdfExporter(ReportExporter):
@@ -45,24 +45,35 @@ class PdfExporter(ReportExporter):
     def report(self, nb: Any, resources: dict[str, Any]) -> Report:
         """The notebook read, its formulas known to be understood. Raises ExportError."""
         report = super().report(nb, resources)
-        found = problems(report, "typst")
-        if found:
+        if self.mended(resources):
+            mend_formulas(report, "typst")
+            number(report)
+        elif found := problems(report, "typst"):
             raise ExportError(report.name, found)
         return report
 
     def source(self, report: Report, turned: frozenset[str] = frozenset()) -> tuple[str, dict[str, bytes]]:
         """The Typst source of a report and the files beside it. turned: tables that get a landscape page."""
+        text, files, _ = self.written(report, turned)
+        return text, files
+
+    def written(self, report: Report, turned: frozenset[str] = frozenset()) -> Written:
+        """The same, and the tables written, by the names that the engine calls them."""
         writer = TypstWriter(report.name, turned=turned)
         told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": literal}
         text = self.template.render(**told, functions=IMPORT)
-        return text, {**support_files(), **writer.files}
+        return text, {**support_files(), **writer.files}, writer.grids
 
     def from_notebook_node(self, nb, resources=None, **kw):
         """The PDF's bytes, and the resources."""
         resources = self._init_resources(resources)
         report = self.report(nb, resources)
         try:
-            pdf = compile_turning(lambda turned: self.source(report, turned))
+            if self.mended(resources):
+                pdf = compile_mending(report, lambda turned: self.written(report, turned))
+                self.tell(report, resources)
+            else:
+                pdf = compile_turning(lambda turned: self.source(report, turned))
         except TypstFailed as error:
             raise as_export_error(error, report.name) from None
         resources["output_extension"] = self.file_extension

@@ -22,6 +22,7 @@ from notebook_reports.export.model import (
     Listing,
     Math,
     Note,
+    Paragraph,
     Quote,
     Rule,
     Styled,
@@ -29,7 +30,13 @@ from notebook_reports.export.model import (
     plain,
 )
 from notebook_reports.export.read import pictures
-from notebook_reports.export.read.html import CODE, STYLES, THROUGH, read_html
+from notebook_reports.export.read.css import Looks
+from notebook_reports.export.read.footnotes import unused, with_missing
+from notebook_reports.export.read.html import HtmlReader, read_html
+from notebook_reports.export.read.html_in_markdown import as_html, interleaved
+from notebook_reports.export.read.html_names import CODE, STYLES, THROUGH, is_no_tag
+from notebook_reports.export.read.html_tree import tree_of
+from notebook_reports.export.read.pipe_tables import with_whole_tables
 from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
 from notebook_reports.export.read.tables import align_numbers, place
 from notebook_reports.export.read.terminal import visible
@@ -49,27 +56,36 @@ def _parser() -> Any:
 
 def read_markdown(source: str, reading: Reading) -> list[Block]:
     """The blocks of a Markdown text; what cannot be shown is noted in `reading.problems`."""
-    tokens = _parser()(source)
+    if reading.mending:
+        source = with_whole_tables(source)
+    whole, shared = with_missing(source, reading.footnotes)
+    tokens = _parser()(whole)
+    if reading.mending and interleaved(tokens):
+        return read_html(as_html(whole), reading)
     notes = {}
     for token in tokens:
         if token["type"] == "footnotes":
             notes = {item["attrs"]["key"]: item["children"] for item in token["children"]}
-    return _Cell(reading, notes).blocks(tokens)
+    cell = _Cell(reading, notes, shared)
+    blocks = cell.blocks(tokens)
+    for key, text in unused(source, reading.note_references):
+        blocks += [Paragraph([Text(f"[^{key}]: ")]), *cell.blocks(_parser()(text))]
+    return blocks
 
 
 class _Cell:
-    """Reads the tokens of one text. notes: the tokens of each footnote by key."""
+    """Reads the tokens of one text. notes: the tokens of each footnote by key; shared: those of other cells."""
 
-    def __init__(self, reading: Reading, notes: dict[str, list[dict[str, Any]]]):
+    def __init__(self, reading: Reading, notes: dict[str, list[dict[str, Any]]], shared: frozenset[str] = frozenset()):
         self.reading = reading
         self.notes = notes
+        self.shared = shared
         self.numbers: dict[str, int] = {}
 
     def blocks(self, tokens: list[dict[str, Any]]) -> list[Block]:
         blocks: list[Block] = []
         for token in tokens:
-            with self.reading.guard():
-                blocks.extend(self.block(token))
+            blocks.extend(self.reading.attempt(lambda token=token: self.block(token), token.get("raw", "")))
         return blocks
 
     def block(self, token: dict[str, Any]) -> list[Block]:
@@ -129,6 +145,8 @@ class _Cell:
         return Cell(children, align=token["attrs"]["align"] or "", head=token["attrs"]["head"])
 
     def refuse_broken_table(self, nodes: list[Inline | Display]) -> None:
+        if self.reading.mending:
+            return
         text = "".join(
             "\n" if isinstance(n, Text) and n.text == " " else plain([n]) for n in nodes if isinstance(n, Text)
         )
@@ -143,9 +161,12 @@ class _Cell:
         stack: list[tuple[str, str, list[Inline | Display]]] = [("", "", [])]
         for token in tokens:
             if token["type"] != "inline_html":
-                stack[-1][2].extend(self.node(token))
+                stack[-1][2].extend(self.reading.attempt(lambda token=token: self.node(token), token.get("raw", "")))
                 continue
             raw = token["raw"]
+            if is_no_tag(raw):
+                stack[-1][2].append(Text(raw))
+                continue
             closing = re.fullmatch(r"</\s*([A-Za-z0-9]+)\s*>", raw)
             opening = re.fullmatch(r"<([A-Za-z0-9]+)(\s[^>]*)?>", raw, re.DOTALL)
             if raw.startswith("<!--"):
@@ -166,19 +187,24 @@ class _Cell:
             raise CannotShow(f"HTML {stack[-1][1]} that is not closed in its paragraph")
         return stack[0][2]
 
-    def paired(self, name: str, tag: str, children: list[Inline]) -> list[Inline]:
-        attributes = dict(re.findall(r"([\w-]+)\s*=\s*[\"']?([^\"'>]*)", tag))
-        anchor = attributes.get("id") or (attributes.get("name") if name == "a" else "")
+    def paired(self, name: str, raw: str, children: list[Inline]) -> list[Inline]:
+        """What stands between two tags, as the first asks for it."""
+        tree, _ = tree_of(raw)
+        tag, looks = tree.find(), Looks(tree)
+        look = looks.of(tag)
+        if look.hidden:
+            return []
+        anchor = str(tag.get("id") or (tag.get("name") if name == "a" else "") or "")
         before: list[Inline] = [Anchor(anchor)] if anchor else []
-        if name == "a" and "href" in attributes:
-            return [*before, Link(html.unescape(attributes["href"]), children)]
-        if name in STYLES:
-            return [*before, Styled(STYLES[name], children)]
+        if name == "a" and tag.get("href"):
+            return [*before, Link(str(tag["href"]), children)]
         if name in CODE:
             return [*before, Code(plain(children))]
-        if name in THROUGH or name == "a":
-            return [*before, *children]
-        raise CannotShow(f"HTML {tag}, which a page cannot show; write it in Markdown")
+        if name == "q":
+            return [*before, Text("“"), *children, Text("”")]
+        if name in STYLES or name in THROUGH or name == "a":
+            return [*before, *HtmlReader(self.reading, looks, [], True).dressed(tag, look, children)]
+        raise CannotShow(f"HTML {raw}, which a page cannot show; write it in Markdown")
 
     def node(self, token: dict[str, Any]) -> list[Inline | Display]:
         kind = token["type"]
@@ -198,12 +224,12 @@ class _Cell:
             case "image":
                 return [self.image(token)]
             case "inline_math":
-                return [Math(token["raw"].strip())]
+                return self.reading.math(token["raw"])
             case "block_math":
-                return [self.reading.display(token["raw"])]
+                return self.reading.display(token["raw"])
             case "latex_environment":
                 name, body = token["attrs"]["name"], token["attrs"]["body"]
-                return [self.reading.display(rf"\begin{{{name}}}{body}\end{{{name}}}")]
+                return self.reading.display(rf"\begin{{{name}}}{body}\end{{{name}}}")
             case "footnote_ref":
                 return [self.note(token["raw"])]
         raise CannotShow(f"Markdown of the kind {kind}, which a report cannot show")
@@ -217,11 +243,14 @@ class _Cell:
         known = next((k for k in self.notes if k.lower() == key.lower()), None)
         if known is None:
             raise CannotShow(f"the footnote [^{key}] has no text in this cell")
-        if known in self.numbers:
-            return Note(self.numbers[known], [])
+        numbers = self.reading.note_numbers if known in self.shared else self.numbers
+        if known in numbers:
+            return Note(numbers[known], [])
         self.reading.notes += 1
-        self.numbers[known] = self.reading.notes
-        return Note(self.numbers[known], self.blocks(self.notes[known]))
+        numbers[known] = self.reading.notes
+        if known in self.reading.footnotes:
+            self.reading.note_numbers.setdefault(known, numbers[known])
+        return Note(numbers[known], self.blocks(self.notes[known]))
 
 
 def _lines_only(nodes: list[Inline | Display]) -> list[Inline]:
@@ -230,9 +259,11 @@ def _lines_only(nodes: list[Inline | Display]) -> list[Inline]:
 
 
 def _line_of(block: Block, raw: str) -> list[Inline]:
-    from notebook_reports.export.model import Figure, Paragraph
+    from notebook_reports.export.model import Figure, Mend
 
     match block:
+        case Mend():
+            return [block]
         case Figure(picture):
             return [picture]
         case Paragraph(children):

@@ -16,16 +16,23 @@ from notebook_reports.export.model import (
     Heading,
     Link,
     Listing,
+    Mend,
+    Note,
+    Picture,
     Report,
     ReportCell,
     Text,
     plain,
+    rewrite,
     walk,
+    words_only,
 )
+from notebook_reports.export.read.equations import number_equations, settle_references
+from notebook_reports.export.read.footnotes import footnotes, references
 from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.markdown import read_markdown
 from notebook_reports.export.read.outputs import read_outputs
-from notebook_reports.export.read.reading import Reading, anchor_of
+from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
 from notebook_reports.export.read.terminal import visible
 
 NO_INPUT = {"remove-input", "hide-input", "remove_input", "hide_input"}
@@ -45,13 +52,16 @@ def read(
     author: str = "",
     folder: Path | None = None,
     strict_alt: bool = False,
+    mode: str = "strict",
 ) -> Report:
     """Read a notebook (nbformat 4). Raises ExportError that names every cell which holds what no page can show.
 
     The title is the one given, else the first top heading, else the last part of `name`. name: "folder/notebook", as
-    links from other notebooks call it.
+    links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes.
     """
-    reading = Reading(folder, document, strict_alt)
+    reading = Reading(folder, document, strict_alt, mode == "mend")
+    sources = _markdown_sources(notebook)
+    reading.footnotes, reading.note_references = footnotes(sources), references(sources)
     cells = []
     for number, cell in enumerate(notebook["cells"], start=1):
         reading.cell = number
@@ -61,16 +71,28 @@ def read(
         cells.append(ReportCell(number, blocks, anchor))
     first = _take_title(cells)
     words = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
+    words = words_only(words)
     report = Report(name, words, first.anchor if first else "", cells, document, chapter, language, author)
     if title and title not in (report.plain_title, plain(words)):
         report.title = [Text(title)]
+    report.aliases = plain_headings(cells)
     level_headings(cells)
     number_blocks(cells)
+    equations = number_equations(report)
     collect_anchors(report, reading)
+    settle_references(report, equations, reading)
     settle_links(report, reading)
     if reading.problems:
         raise ExportError(name, reading.problems)
     return report
+
+
+def _markdown_sources(notebook: Any) -> list[str]:
+    return [_source(cell) for cell in notebook["cells"] if cell["cell_type"] == "markdown"]
+
+
+def _source(cell: Any) -> str:
+    return "".join(cell.get("source") or "")
 
 
 def _language(notebook: Any) -> str:
@@ -81,21 +103,27 @@ def _language(notebook: Any) -> str:
 
 def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
     tags = set(cell.get("metadata", {}).get("tags", ()))
-    source = "".join(cell["source"])
+    source = _source(cell)
     if tags & NO_CELL:
         return []
-    with reading.guard():
-        if cell["cell_type"] == "markdown":
-            return read_markdown(source, reading)
-        if cell["cell_type"] == "raw":
-            return _raw(source, cell.get("metadata", {}), reading)
-        blocks: list[Block] = []
-        if source.strip() and not tags & NO_INPUT:
-            blocks.append(Listing(visible(source.expandtabs(4)).strip("\n"), "input", language))
-        if not tags & NO_OUTPUT:
-            blocks += read_outputs(cell.get("outputs", ()), reading)
-        return blocks
-    return []
+    match cell["cell_type"]:
+        case "markdown" | "heading":
+            return reading.attempt(lambda: read_markdown(source, reading), source)
+        case "raw":
+            return reading.attempt(lambda: _raw(source, cell.get("metadata", {}), reading), source)
+        case "code":
+            blocks: list[Block] = []
+            if source.strip() and not tags & NO_INPUT:
+                blocks.append(Listing(visible(source.expandtabs(4)).strip("\n"), "input", language))
+            if not tags & NO_OUTPUT:
+                blocks += read_outputs(cell.get("outputs") or (), reading)
+            return blocks
+    told = CannotShow(f"a cell of the kind {cell['cell_type']}; make it Markdown or code", "cell", text=source)
+
+    def refused() -> list[Block]:
+        raise told
+
+    return reading.attempt(refused)
 
 
 def _raw(source: str, metadata: Any, reading: Reading) -> list[Block]:
@@ -104,9 +132,9 @@ def _raw(source: str, metadata: Any, reading: Reading) -> list[Block]:
         return read_markdown(source, reading)
     if mime == "text/html":
         return read_html(source, reading)
-    if mime == "text/latex":
-        return [reading.display(source)]
-    if mime == "text/plain":
+    if mime == "text/latex" and not reading.mending:
+        return reading.display(source)
+    if mime == "text/plain" or reading.mending:
         return [Listing(visible(source.expandtabs(4)).strip("\n"))] if source.strip() else []
     raise CannotShow(f"a raw cell of the kind {mime}; make it Markdown, or plain text")
 
@@ -118,6 +146,28 @@ def _take_title(cells: list[ReportCell]) -> Heading | None:
             if isinstance(block, Heading):
                 return cell.blocks.pop(i) if block.level == 1 else None
     return None
+
+
+def plain_headings(cells: list[ReportCell]) -> dict[str, str]:
+    """Take out of headings what contents cannot repeat: pictures, notes and mends stand below, anchors become names
+    for the heading itself, returned with its own. A heading without words is a paragraph."""
+    aliases: dict[str, str] = {}
+
+    def changed(node: object) -> list[Block] | None:
+        if not isinstance(node, Heading):
+            return None
+        words = words_only(node.children, pictures=False)
+        trim(words)
+        rest = [part for part in [*walk(node)] if isinstance(part, Picture | Note | Mend)]
+        if not plain(words, "text").strip():
+            return flow(rest)
+        aliases.update((part.name, node.anchor) for part in walk(node) if isinstance(part, Anchor))
+        if node.children == words:
+            return None
+        return [Heading(node.level, words, node.anchor), *flow(rest)]
+
+    rewrite(cells, changed)
+    return aliases
 
 
 def level_headings(cells: list[ReportCell], top: int = 1, chapter: str = "") -> None:
@@ -166,41 +216,64 @@ def collect_anchors(report: Report, reading: Reading) -> None:
                         node.anchor = f"{wanted}-{count}"
                     seen[node.anchor] = cell.number
                 case Display(_, label, anchor) if anchor:
+                    if anchor in seen and reading.mending:
+                        node.anchor = ""
+                        continue
                     if anchor in seen:
                         other = f"here and in cell {seen[anchor]}"
                         text = f"equation ({label}) is numbered twice, {other}; show it without its label here"
                         reading.problems.append(Problem(cell.number, text))
                     seen[anchor] = cell.number
                 case Anchor(name):
+                    if name in seen and reading.mending:
+                        node.name = ""
+                        continue
                     if name in seen:
                         reading.problems.append(Problem(cell.number, f"the anchor {name!r} is defined twice"))
                     seen[name] = cell.number
+    rewrite(report.cells, lambda node: [] if isinstance(node, Anchor) and not node.name else None)
     report.anchors = set(seen)
 
 
 def settle_links(report: Report, reading: Reading) -> None:
-    for cell in report.cells:
-        reading.cell = cell.number
-        for node in walk(cell):
-            if isinstance(node, Link):
-                with reading.guard():
-                    settle_link(node, report.name, report.anchors, reading.folder)
+    """Say of each link where it leads; the words of one that leads nowhere stay, and a `Mend` stands after them."""
+    for number, part in [(0, report.title), *((cell.number, cell) for cell in report.cells)]:
+        reading.cell = number
+        for link in [node for node in walk(part) if isinstance(node, Link)]:
+
+            def settle(link: Link = link) -> list[Mend]:
+                settle_link(link, report.name, report.anchors | set(report.aliases), reading.folder, reading.mending)
+                link.target = report.aliases.get(link.target, link.target) if link.kind == "internal" else link.target
+                return []
+
+            found = reading.attempt(settle)
+            if found:
+                link.kind = "nowhere"
+                link.children.append(Mend("link", found[0].reason, address=found[0].address, remark=True))
 
 
-def settle_link(link: Link, name: str, anchors: set[str], folder: Path | None) -> None:
-    """Say where a link leads. Raises CannotShow where it leads nowhere."""
+def settle_link(link: Link, name: str, anchors: set[str], folder: Path | None, tolerant: bool = False) -> None:
+    """Say where a link leads. Raises CannotShow where it leads nowhere.
+
+    tolerant: an anchor is also found by its letters and digits alone, as other programs name headings.
+    """
     url = link.url.strip()
     path, _, fragment = url.partition("#")
     scheme = _SCHEME.match(url)
     if url.startswith("#"):
         wanted = anchor_of(unquote(fragment))
-        found = next((a for a in (fragment, wanted) if a in anchors), None)
+        found = next((a for a in (fragment, unquote(fragment), wanted) if a in anchors), None)
+        if found is None and tolerant and _letters(wanted):
+            found = next((a for a in sorted(anchors) if _letters(a) == _letters(wanted)), None)
         if found is None:
             import difflib
 
             near = difflib.get_close_matches(wanted, sorted(anchors), 1, 0.5)
             hint = f"; did you mean #{near[0]}?" if near else ""
-            raise CannotShow(f"a link to #{fragment}, which is nowhere in this notebook{hint}")
+            told = "it leads to a place that is nowhere in this notebook"
+            raise CannotShow(
+                f"a link to #{fragment}, which is nowhere in this notebook{hint}", "link", told, address=url
+            )
         link.kind, link.target = "internal", found
     elif scheme and scheme["scheme"].lower() == "notebook":
         link.kind, link.target = "notebook", unquote(url[len("notebook:") :])
@@ -209,12 +282,37 @@ def settle_link(link: Link, name: str, anchors: set[str], folder: Path | None) -
         link.kind, link.target = "notebook", other + (f"#{unquote(fragment)}" if fragment else "")
     elif scheme and scheme["scheme"].lower() in ("http", "https", "mailto", "doi", "tel", "ftp"):
         link.kind, link.target = "external", url
+    elif url.startswith("//"):
+        link.kind, link.target = "external", "https:" + url
     elif scheme:
-        raise CannotShow(f"a link to {url[:80]}, which a report cannot follow; use https, mailto or an anchor")
-    elif not path or folder is None or not (Path(folder) / unquote(path)).exists():
-        raise CannotShow(f"a link to the file {url!r}, which is not beside the notebook")
+        raise CannotShow(
+            f"a link to {url[:80]}, which a report cannot follow; use https, mailto or an anchor",
+            "link",
+            f"a page cannot follow {scheme['scheme']}:",
+            address=url[:200],
+        )
+    elif not url:
+        raise CannotShow("a link without an address", "link", "it has no address")
+    elif not path or folder is None or not _beside(folder, path):
+        raise CannotShow(
+            f"a link to the file {url!r}, which is not beside the notebook",
+            "link",
+            "it leads to a file that is not beside the notebook",
+            address=url[:200],
+        )
     else:
         link.kind, link.target = "external", url
+
+
+def _letters(anchor: str) -> str:
+    return re.sub(r"[\W_]+", "", anchor).casefold()
+
+
+def _beside(folder: Path, path: str) -> bool:
+    try:
+        return (Path(folder) / unquote(path)).exists()
+    except (OSError, ValueError):
+        return False
 
 
 def beside(target: str, name: str, suffix: str) -> str:

@@ -1,12 +1,13 @@
 """The outputs of a code cell into a report's blocks, the richest form that a page can show first."""
 
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 
 from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Block, Display, Figure, Listing
+from notebook_reports.export.model import Block, Display, Figure, Listing, Mend
 from notebook_reports.export.read import pictures
 from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.inline_text import read_inline
@@ -25,8 +26,7 @@ def read_outputs(outputs: list[Any], reading: Reading) -> list[Block]:
     """The blocks of all outputs; what cannot be shown is noted in `reading.problems`."""
     blocks: list[Block] = []
     for output in _merged(outputs):
-        with reading.guard():
-            blocks.extend(read_output(output, reading))
+        blocks.extend(reading.attempt(lambda output=output: read_output(output, reading)))
     return blocks
 
 
@@ -34,12 +34,12 @@ def read_output(output: Any, reading: Reading) -> list[Block]:
     """The blocks of one output. Raises CannotShow where none of its forms can be shown."""
     match output["output_type"]:
         case "stream":
-            return _listing(output["text"], "stderr" if output["name"] == "stderr" else "output")
+            return _listing(output.get("text", ""), "stderr" if output.get("name") == "stderr" else "output", reading)
         case "error":
-            text = "\n".join(output.get("traceback") or [f"{output['ename']}: {output['evalue']}"])
-            return _listing(text, "error")
-        case "display_data" | "execute_result" | "update_display_data":
-            return _bundle(output["data"], output.get("metadata") or {}, reading)
+            told = f"{output.get('ename', 'Error')}: {output.get('evalue', '')}"
+            return _listing("\n".join(output.get("traceback") or [told]), "error", reading)
+        case "display_data" | "execute_result" | "update_display_data" | "pyout":
+            return _bundle(output.get("data") or {}, output.get("metadata") or {}, reading)
     raise CannotShow(f"an output of the kind {output['output_type']}")
 
 
@@ -48,23 +48,61 @@ def _merged(outputs: list[Any]) -> list[Any]:
     merged: list[Any] = []
     for output in outputs:
         last = merged[-1] if merged else None
-        same = last and output["output_type"] == "stream" == last["output_type"] and output["name"] == last["name"]
-        if same:
-            merged[-1] = {**last, "text": _joined(last["text"]) + _joined(output["text"])}
+        streams = last and output["output_type"] == "stream" == last["output_type"]
+        if streams and output.get("name") == last.get("name"):
+            merged[-1] = {**last, "text": _joined(last.get("text", "")) + _joined(output.get("text", ""))}
         else:
             merged.append(output)
     return merged
 
 
 def _bundle(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
+    """The first form that a page can show. An output without data is nothing."""
+    data = {mime: content for mime, content in data.items() if content not in ("", [], None)}
+    refused: list[CannotShow] = []
     for mime, read in _FORMS.items():
-        if mime in data:
-            return read(data, metadata, reading)
+        if mime not in data or (mime == "text/plain" and _more_than_text(data)):
+            continue
+        try:
+            lost = [error for error in refused if error.kind != "table"]
+            return [*(Mend(e.kind, e.reason, e.text, e.address) for e in lost[:1]), *read(data, metadata, reading)]
+        except CannotShow as error:
+            if not reading.mending and not (error.kind == "table" and "text/html" in data):
+                raise
+            refused.append(error)
     shown = [mime for mime in data if not mime.startswith("application/vnd.loopbook.")]
-    if shown or not data:
-        forms = ", ".join(sorted(shown)) or "nothing"
-        raise CannotShow(f"an output that exists only as {forms}; display a table, a figure or text instead")
-    return []
+    if not shown:
+        return []
+    return _mended(data, shown, refused, reading)
+
+
+def _mended(data: Bundle, shown: list[str], refused: list[CannotShow], reading: Reading) -> list[Block]:
+    """A box for an output that no page can show, its text form beside it."""
+    words = _listing(data["text/plain"], "output", reading) if "text/plain" in data else []
+    other = next((mime for mime in shown if mime.startswith("text/") and mime not in _FORMS), "")
+    words = words or (_listing(data[other], "output", reading) if other else [])
+    if not refused:
+        forms = ", ".join(sorted(mime for mime in shown if mime != "text/plain"))
+        if not words and not reading.mending:
+            raise CannotShow(f"an output that exists only as {forms}; display a table, a figure or text instead")
+        kind = "widget" if "widget" in forms else "output"
+        reason = "a page is not interactive" if kind == "widget" else f"a page cannot show {forms}"
+        refused = [CannotShow(f"an output that a page can show only as text, not as {forms}", kind, reason)]
+    if not reading.mending:
+        raise refused[0]
+    first = refused[0]
+    told = f"{first.reason}; its text form follows" if words else first.reason
+    return [Mend(first.kind, told, "" if words else first.text, first.address), *words]
+
+
+def _more_than_text(data: Bundle) -> bool:
+    """Is there something beside the text that a browser would show instead, such as a widget or a chart?"""
+    return any(_INTERACTIVE.search(mime) for mime in data)
+
+
+_INTERACTIVE = re.compile(
+    r"^application/(vnd\.(jupyter\.widget|plotly|vega|bokeh|holoviews)|javascript|geo|pdf)|^(video|audio|model)/"
+)
 
 
 def _table(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
@@ -86,35 +124,53 @@ def _equation(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
 
 def _latex(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     text = _joined(data["text/latex"]).strip()
+    if re.search(r"\\begin\{(tabular|longtable|table|figure|center|tikzpicture)", text):
+        raise CannotShow("LaTeX that is no formula; give the output an HTML form", "table", "it is LaTeX for a printer")
     alone = text.startswith("$") and text.endswith("$") and "$" not in text.strip("$")
     if alone or (text.startswith(r"\begin") and "$" not in text):
-        return [reading.display(text.strip("$").strip())]
+        return reading.display(text.strip("$").strip())
+    if reading.mending and "$" not in text and re.match(r"\\[a-zA-Z(\[]", text) and "\\(" not in text:
+        return reading.display(text.removeprefix(r"\[").removesuffix(r"\]"))
     return flow(with_math(text, reading))
 
 
 def _picture(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     told = next((m["alt"] for m in (metadata, *metadata.values()) if isinstance(m, dict) and m.get("alt")), "")
     picture = _first_picture(data, metadata, reading.alt(told, "a picture"))
-    return [Figure(picture)]
+    return [Figure(picture)] if picture else []
 
 
 def _first_picture(data: Bundle, metadata: Bundle, alt: str) -> Any:
     for mime in pictures.KINDS:
         if mime in data:
             own = metadata.get(mime)
-            width = own.get("width") if isinstance(own, dict) else None
-            return pictures.from_bundle(mime, data[mime], alt, width)
+            asked = own if isinstance(own, dict) else metadata
+            sizes = (_pixels(asked.get(key)) for key in ("width", "height"))
+            return pictures.from_bundle(mime, data[mime], alt, *sizes)
     return None
+
+
+def _pixels(told: Any) -> float | None:
+    return float(told) if isinstance(told, int | float) and told > 0 else None
 
 
 def _html(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     text = _joined(data["text/html"])
     _refuse_long(text, 20 * MAX_TEXT)
-    return read_html(text, reading)
+    if re.search(r"text-repr-fallback", text) and "text/plain" in data:
+        return _plain(data, metadata, reading)  # xarray, scikit-learn: the same in text, made for pages without styles
+    blocks = read_html(text, reading, anchors=not reading.mending)
+    if "text/plain" in data and not any(not isinstance(block, Mend) for block in blocks):
+        blocks += _plain(data, metadata, reading)
+    return blocks
 
 
 def _script(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
-    raise CannotShow("an output that is a script, which a page cannot run; display a table, a figure or text instead")
+    raise CannotShow(
+        "an output that is a script, which a page cannot run; display a table, a figure or text instead",
+        "script",
+        "a page runs no scripts",
+    )
 
 
 def _markdown(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
@@ -122,25 +178,36 @@ def _markdown(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
 
 
 def _plain(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
-    return _listing(data["text/plain"], "output")
+    return _listing(data["text/plain"], "output", reading)
 
 
 def _json(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     text = json.dumps(data["application/json"], indent=2, ensure_ascii=False)
-    return _listing(text, "output")
+    return _listing(text, "output", reading)
 
 
-def _listing(text: Any, role: str) -> list[Block]:
-    text = _joined(text)
-    _refuse_long(text, MAX_TEXT)
-    text = settle(text).strip("\n")
-    return [Listing(text, role)] if text.strip() else []
+def _listing(text: Any, role: str, reading: Reading) -> list[Block]:
+    """Printed text; a text over the limit is an error or, mended, cut in its middle with a count."""
+    text = settle(_joined(text)).strip("\n")
+    if not reading.mending:
+        _refuse_long(text, MAX_TEXT)
+    if len(text) <= MAX_TEXT:
+        return [Listing(text, role)] if text.strip() else []
+    head = text[: MAX_TEXT * 3 // 4].rpartition("\n")[0] or text[: MAX_TEXT * 3 // 4]
+    tail = text[-MAX_TEXT // 4 :].partition("\n")[2] or text[-MAX_TEXT // 4 :]
+    left = text[len(head) : len(text) - len(tail)]
+    size = f"{len(left.split()):,} words in {left.count(chr(10)):,} lines"
+    told = f"{size} are left out here, of an output of {len(text):,} characters"
+    return [Listing(head, role), Mend("text", told), Listing(tail.strip("\n"), role)]
 
 
 def _refuse_long(text: str, limit: int) -> None:
     if len(text) > limit:
         size = f"{len(text) / 1e6:.1f} million characters"
-        raise CannotShow(f"an output of {size}, more than a report can show ({limit / 1e6:.1f}): show a part of it")
+        raise CannotShow(
+            f"an output of {size}, more than a report can show ({limit / 1e6:.1f}): show a part of it",
+            reason=f"it has {size}, more than a page can show",
+        )
 
 
 def _joined(text: Any) -> str:

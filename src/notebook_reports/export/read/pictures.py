@@ -22,7 +22,7 @@ _FIRST_BYTES = {"png": b"\x89PNG\r\n\x1a\n", "jpg": b"\xff\xd8\xff", "gif": b"GI
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+:")
 
 
-def from_bundle(mime: str, content: str, alt: str, width: float | None = None) -> Picture:
+def from_bundle(mime: str, content: str, alt: str, width: float | None = None, height: float | None = None) -> Picture:
     """A picture of an output or attachment: SVG as text, the others in base64."""
     kind = KINDS[mime]
     content = "".join(content) if isinstance(content, list) else content
@@ -30,7 +30,7 @@ def from_bundle(mime: str, content: str, alt: str, width: float | None = None) -
         data = content.encode()
     else:
         data = _base64(content)
-    return checked(Picture(data, kind, alt, width))
+    return checked(Picture(data, kind, alt, width, height))
 
 
 def from_url(url: str, alt: str, attachments: dict[str, dict[str, str]], folder: Path | None) -> Picture:
@@ -39,7 +39,10 @@ def from_url(url: str, alt: str, attachments: dict[str, dict[str, str]], folder:
         mime, _, content = url[5:].partition(",")
         mime, *options = mime.split(";")
         if mime not in KINDS:
-            raise CannotShow(f"an image of type {mime or 'unknown'}; use SVG, PNG, JPEG, GIF or WebP")
+            told = f"its type is {mime or 'unknown'}"
+            raise CannotShow(
+                f"an image of type {mime or 'unknown'}; use SVG, PNG, JPEG, GIF or WebP", "image", told, alt
+            )
         data = _base64(unquote(content)) if "base64" in options else unquote_to_bytes(content)
         return checked(Picture(data, KINDS[mime], alt))
     if url.startswith("attachment:"):
@@ -48,19 +51,44 @@ def from_url(url: str, alt: str, attachments: dict[str, dict[str, str]], folder:
         for mime in KINDS:
             if mime in bundle:
                 return from_bundle(mime, bundle[mime], alt)
-        raise CannotShow(f"the image attachment {name!r} is missing; paste the image into the cell again")
+        raise CannotShow(
+            f"the image attachment {name!r} is missing; paste the image into the cell again",
+            "image",
+            "its attachment is missing from the notebook",
+            alt,
+            url,
+        )
     if _SCHEME.match(url) or url.startswith("//"):
-        raise CannotShow(f"the image {url} is on the network; save it beside the notebook and name the file")
+        raise CannotShow(
+            f"the image {url} is on the network; save it beside the notebook and name the file",
+            "image",
+            "it is on the web, not in the notebook",
+            alt,
+            url,
+        )
     if folder is None:
-        raise CannotShow(f"the image {url} is a file, but the notebook's folder is not known")
-    path = Path(folder) / unquote(url)
+        raise CannotShow(f"the image {url} is a file, but the notebook's folder is not known", "image", "", alt, url)
+    path = Path(folder) / unquote(url.partition("?")[0])
     kind = _SUFFIXES.get(path.suffix.lower())
     if kind is None:
-        raise CannotShow(f"the image {url} is none of {', '.join(sorted(_SUFFIXES))}")
+        told = f"the image {url} is none of {', '.join(sorted(_SUFFIXES))}"
+        raise CannotShow(told, "image", "a page cannot show a file of its kind", alt, url)
     try:
-        return checked(Picture(path.read_bytes(), kind, alt))
-    except OSError:
-        raise CannotShow(f"no image {url}; it is looked for beside the notebook") from None
+        data = path.read_bytes()
+    except (OSError, ValueError):
+        raise CannotShow(
+            f"no image {url}; it is looked for beside the notebook",
+            "image",
+            "there is no such file beside the notebook",
+            alt,
+            url,
+        ) from None
+    return checked(Picture(data, _kind_of(data) or kind, alt))
+
+
+def _kind_of(data: bytes) -> str:
+    """The kind that the first bytes tell; files are often named otherwise."""
+    return next((kind for kind, first in _FIRST_BYTES.items() if data.startswith(first)), "")
 
 
 def checked(picture: Picture) -> Picture:
@@ -68,7 +96,8 @@ def checked(picture: Picture) -> Picture:
     if picture.kind == "svg":
         picture.data = _clean_svg(picture.data)
     elif not picture.data.startswith(_FIRST_BYTES[picture.kind]):
-        raise CannotShow(f"an image that says it is {picture.kind.upper()} and is not")
+        told = f"an image that says it is {picture.kind.upper()} and is not"
+        raise CannotShow(told, "image", "its data is damaged", picture.alt)
     return picture
 
 
@@ -76,7 +105,7 @@ def _base64(content: str) -> bytes:
     try:
         return base64.b64decode("".join(content.split()), validate=True)
     except binascii.Error:
-        raise CannotShow("an image whose data is damaged; run the cell again") from None
+        raise CannotShow("an image whose data is damaged; run the cell again", "image", "its data is damaged") from None
 
 
 def _clean_svg(data: bytes) -> bytes:
@@ -87,7 +116,7 @@ def _clean_svg(data: bytes) -> bytes:
         text = data.decode()
         root = ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>\[]*(\[[^\]]*\])?>", "", text))
     except (UnicodeDecodeError, ElementTree.ParseError) as error:
-        raise CannotShow(f"an SVG image that cannot be read: {error}") from None
+        raise CannotShow(f"an SVG image that cannot be read: {error}", "image") from None
     if not root.tag.endswith("svg"):
         raise CannotShow(f"an SVG image whose first element is <{root.tag}>")
     for element in root.iter():

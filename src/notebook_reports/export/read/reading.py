@@ -1,13 +1,14 @@
 """What the readers of one notebook share: where they are, what they have counted, what they could not show."""
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from notebook_reports.export.errors import CannotShow, Problem
-from notebook_reports.export.model import Block, Break, Display, Figure, Inline, Math, Paragraph, Picture, Text
+from notebook_reports.export.model import Block, Break, Display, Figure, Inline, Math, Mend, Paragraph, Picture, Text
+from notebook_reports.mathematics.macros import Macros
 
 _MATH = re.compile(
     r"(?<!\\)\$\$(?P<display>.+?)(?<!\\)\$\$"
@@ -25,24 +26,40 @@ class Reading:
     """The state of reading one notebook.
 
     folder: where relative images are looked up. document: what equation anchors begin with. strict_alt: a picture
-    without alternative text is a problem, not a picture called "Figure".
+    without alternative text is a problem, not a picture called "Figure". mending: what cannot be shown becomes a
+    `Mend`, not a problem. macros: those defined so far. footnotes: the texts of footnotes by key, in Markdown, for
+    cells that refer to another cell's. note_references: the keys that any cell refers to. note_numbers: those given.
     """
 
     folder: Path | None = None
     document: str = ""
     strict_alt: bool = False
+    mending: bool = False
+    macros: Macros = field(default_factory=Macros)
+    footnotes: dict[str, str] = field(default_factory=dict)
+    note_references: frozenset[str] = frozenset()
+    note_numbers: dict[str, int] = field(default_factory=dict)
     cell: int = 0
     attachments: dict[str, dict[str, str]] = field(default_factory=dict)
     notes: int = 0
     problems: list[Problem] = field(default_factory=list)
 
-    @contextmanager
-    def guard(self) -> Iterator[None]:
-        """Note what cannot be shown and go on, so that one export names every problem of a notebook."""
+    def attempt(self, read: Callable[[], list[Any]], source: str = "") -> list[Any]:
+        """What `read` gives; where that cannot be shown, a `Mend` and the source, or, strictly, a problem and nothing.
+
+        One export names every problem of a notebook.
+        """
         try:
-            yield
+            return read()
         except CannotShow as error:
-            self.problems.append(Problem(self.cell, str(error)))
+            if not self.mending:
+                self.problems.append(Problem(self.cell, str(error)))
+                return []
+            return [Mend(error.kind, error.reason, error.text or source, error.address)]
+        except (RecursionError, ArithmeticError, LookupError, TypeError, ValueError, AttributeError) as error:
+            if not self.mending:
+                raise
+            return [Mend("cell", f"it cannot be read ({type(error).__name__}: {error})", source)]
 
     def alt(self, text: str | None, what: str) -> str:
         """The alternative text of a picture."""
@@ -53,16 +70,43 @@ class Reading:
             raise CannotShow(f"{what} has no alternative text; say in one sentence what it shows")
         return "Figure without a description"
 
-    def display(self, latex: str) -> Display:
-        """A formula on its own lines, its ``\\tag`` taken out."""
+    def display(self, latex: str) -> list[Display]:
+        """A formula on its own lines, its ``\\tag`` taken out; nothing where it only defines macros."""
         from notebook_reports.mathematics import MathError, extract_tag
 
         try:
-            latex, label = extract_tag(latex.strip())
+            latex = trimmed(self.macros.expand(latex))
+            if not latex:
+                return []
+            latex, label = extract_tag(latex)
         except MathError as error:
+            if self.mending:
+                return [Display(latex)]
             raise CannotShow(f"a formula: {error}") from None
         anchor = "-".join(part for part in ("eq", self.document, label) if part) if label else ""
-        return Display(latex, label or "", anchor)
+        return [Display(latex, label or "", anchor)]
+
+    def math(self, latex: str) -> list[Math]:
+        """A formula inside a line; nothing where it only defines macros."""
+        from notebook_reports.mathematics import MathError
+
+        try:
+            latex = trimmed(self.macros.expand(latex))
+        except MathError as error:
+            if not self.mending:
+                raise CannotShow(f"a formula: {error}") from None
+        return [Math(latex)] if latex else []
+
+
+def trimmed(latex: str) -> str:
+    r"""A formula without blanks at its ends; the space of ``\ `` at its end stays.
+
+    >>> trimmed(" a\\ ")
+    'a\\ '
+    """
+    bare = latex.strip()
+    backslashes = len(bare) - len(bare.rstrip("\\"))
+    return bare + " " if backslashes % 2 else bare
 
 
 def flow(nodes: list[Inline | Display]) -> list[Block]:
@@ -110,11 +154,11 @@ def with_math(text: str, reading: Reading) -> list[Inline | Display]:
         environment = found["environment"]
         display = found["display"] or found["bracket"]
         if environment and found["name"].rstrip("*") not in _ENVIRONMENTS:
-            nodes.append(Math(environment))
+            nodes += reading.math(environment)
         elif environment or display:
-            nodes.append(reading.display(environment or display))
+            nodes += reading.display(environment or display)
         else:
-            nodes.append(Math((found["paren"] or found["inline"]).strip()))
+            nodes += reading.math(found["paren"] or found["inline"])
     nodes.append(Text(_spaces(text[at:])))
     return [node for node in nodes if not (isinstance(node, Text) and not node.text)]
 

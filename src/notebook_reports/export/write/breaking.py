@@ -2,7 +2,7 @@ r"""Where a displayed formula may go on in a new line: before a relation or an o
 
 import re
 
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
+_TOKEN = re.compile(r"\\not(?![A-Za-z])\s*(?:\\[A-Za-z]+|[^\\{\s])|\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 _RELATIONS = frozenset(
     re.findall(
         r"\S+",
@@ -24,6 +24,8 @@ def pieces(latex: str) -> list[str]:
     ['y ', '= a ', '+ \\left(b + c\\right) ', '- d']
     >>> pieces(r"e^{-a} = -b")
     ['e^{-a} ', '= -b']
+    >>> pieces(r"a \not= b")
+    ['a ', '\\not= b']
     """
     found: list[str] = [""]
     depth = 0
@@ -55,4 +57,4 @@ def _may_break(token: str, before: str) -> bool:
     if token in _SPACES:
         return before in {",", ";"}
     unary = before in _RELATIONS | _OPERATORS | _OPENING | {"^", "_", ",", ";"} | _SPACES
-    return token in _RELATIONS | _OPERATORS and not unary
+    return (token in _RELATIONS | _OPERATORS or token.startswith("\\not")) and not unary

@@ -6,13 +6,16 @@ from dataclasses import dataclass, field
 from html import escape
 
 from notebook_reports.export.formulas import as_mathml
+from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
+    Alert,
     Anchor,
     Block,
     Break,
     Bullets,
     Cell,
     Code,
+    Coloured,
     Definitions,
     Display,
     Figure,
@@ -23,16 +26,19 @@ from notebook_reports.export.model import (
     Link,
     Listing,
     Math,
+    Mend,
     Note,
     Paragraph,
     Picture,
     Quote,
+    Report,
     ReportCell,
     Rule,
     Styled,
     Text,
     plain,
 )
+from notebook_reports.export.read.css import readable_on
 from notebook_reports.export.read.notebook import beside
 from notebook_reports.export.read.pictures import MIME
 from notebook_reports.export.write.highlighting import runs
@@ -71,13 +77,18 @@ class HtmlWriter:
             case Bullets():
                 tag = "ol" if block.ordered else "ul"
                 start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
+                style = f' type="{block.style}"' if block.ordered and block.style != "1" else ""
                 items = "".join(self.item(item, block.tight) for item in block.items)
-                return f"<{tag}{start}>{items}</{tag}>"
+                return f"<{tag}{start}{style}>{items}</{tag}>"
             case Definitions(items):
                 parts = (f"<dt>{self.inline(term)}</dt><dd>{self.blocks(body)}</dd>" for term, body in items)
                 return f"<dl>{''.join(parts)}</dl>"
             case Quote(blocks):
                 return f"<blockquote>{self.blocks(blocks)}</blockquote>"
+            case Alert(kind, blocks):
+                return f'<div class="alert {kind}" role="note">{self.blocks(blocks)}</div>'
+            case Mend():
+                return self.mend(block)
             case Rule():
                 return "<hr>"
             case Grid():
@@ -106,7 +117,7 @@ class HtmlWriter:
 
     def item(self, item: Item, tight: bool) -> str:
         checked = " checked" if item.checked else ""
-        start = "<li>"
+        start = "<li>" if item.value is None else f'<li value="{item.value}">'
         if item.checked is not None:
             start = f'<li class="task"><input type="checkbox" disabled{checked} aria-label="task"> '
         parts = [self.inline(b.children) if tight and isinstance(b, Paragraph) else self.block(b) for b in item.blocks]
@@ -138,6 +149,7 @@ class HtmlWriter:
         if len(plain(cell.children)) > 28:
             classes.append("long")
         css = f' class="{" ".join(classes)}"' if classes else ""
+        css += _colours(cell.ink, cell.ground)
         symbol = f'<span class="symbol">{_MARKS[cell.mark]}</span> ' if cell.mark else ""
         return f"<{tag}{spans}{scope}{css}>{symbol}{self.inline(cell.children)}</{tag}>"
 
@@ -164,6 +176,12 @@ class HtmlWriter:
                 return as_mathml(latex, False)
             case Styled(style, children):
                 return f"<{_STYLES[style]}>{self.inline(children)}</{_STYLES[style]}>"
+            case Coloured(children, ink, ground):
+                return f"<span{_colours(ink, ground)}>{self.inline(children)}</span>"
+            case Mend():
+                return self.mend_in_line(node)
+            case Link(kind="nowhere"):
+                return self.inline(node.children)
             case Link():
                 return f'<a href="{escape(self.address(node))}">{self.inline(node.children)}</a>'
             case Picture():
@@ -179,6 +197,35 @@ class HtmlWriter:
                 back = "" if again else f' id="footnote-{number}-from"'
                 return f'<sup><a{back} href="#footnote-{number}" role="doc-noteref">{number}</a></sup>'
         raise TypeError(f"no HTML form for {type(node).__name__}")
+
+    def mend(self, mend: Mend) -> str:
+        """What stands in place of a block: a box, or for a remark a line."""
+        if mend.remark:
+            return f'<p class="remark">{_mend_number(mend)} {escape(sentence(mend))}</p>'
+        words = f"<p>{escape(mend.text)}</p>" if mend.text.strip() else ""
+        if words and mend.kind in ("formula", "cell"):
+            words = f"<pre><code>{escape(mend.text)}</code></pre>"
+        address = f'<p class="address">{escape(mend.address)}</p>' if mend.address else ""
+        told = f"<b>{KINDS[mend.kind]} not shown</b>: {escape(mend.reason)}"
+        return f'<div class="mend" role="note"><p>{_mend_number(mend)} {told}</p>{words}{address}</div>'
+
+    def mend_in_line(self, mend: Mend) -> str:
+        """The same inside a line."""
+        if mend.remark:
+            told = f"{mend.reason}{f': {mend.address}' if mend.address else ''}"
+            return f' <span class="remark">[{_mend_number(mend)} {escape(told)}]</span>'
+        source = f"<code>{escape(mend.text)}</code> " if mend.kind == "formula" else ""
+        return f'<span class="mend">{_mend_number(mend)} {source}{escape(sentence(mend))}</span>'
+
+    def mends(self, report: Report) -> str:
+        """The list of mends at the end, or nothing."""
+        items = "".join(
+            f'<li id="mend-list-{m.number}"><a href="#mend-{m.number}">{f"Cell {cell}. " if cell else ""}</a>'
+            f"{escape(sentence(m))}</li>"
+            for cell, m in report.mends
+        )
+        title = "What this document shows otherwise"
+        return f'<section class="mends"><h2>{title}</h2><ol>{items}</ol></section>' if items else ""
 
     def address(self, link: Link) -> str:
         if link.kind == "internal":
@@ -206,8 +253,21 @@ class HtmlWriter:
             if inside:
                 return inside
         width = f' width="{picture.width:g}"' if picture.width else ""
+        width += f' height="{picture.height:g}"' if picture.height else ""
+        width = f' style="width:{picture.share * 100:g}%"' if picture.share else width
         data = base64.b64encode(picture.data).decode()
         return f'<img src="data:{MIME[picture.kind]};base64,{data}" alt="{alt}"{width}>'
+
+
+def _colours(ink: str, ground: str) -> str:
+    if not ink and not ground:
+        return ""
+    ink = ink or readable_on(ground)
+    return f' style="color:{ink}{f";background:{ground}" if ground else ""}"'
+
+
+def _mend_number(mend: Mend) -> str:
+    return f'<a class="mend-number" id="mend-{mend.number}" href="#mend-list-{mend.number}">{mend.number}</a>'
 
 
 _PLAIN_STYLE = re.compile(r"<style[^>]*>\s*\*\s*\{[^}]*\}\s*</style>")

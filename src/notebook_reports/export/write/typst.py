@@ -5,18 +5,19 @@ strict converter. The functions called here are those of ``templates/loopbook_pd
 """
 
 import hashlib
-import re
-import struct
 from dataclasses import dataclass, field
 
-from notebook_reports.export.formulas import as_text, as_typst
+from notebook_reports.export.formulas import as_text, as_typst, understood
+from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
+    Alert,
     Anchor,
     Block,
     Break,
     Bullets,
     Cell,
     Code,
+    Coloured,
     Definitions,
     Display,
     Figure,
@@ -27,30 +28,45 @@ from notebook_reports.export.model import (
     Link,
     Listing,
     Math,
+    Mend,
     Note,
     PageNumber,
     Paragraph,
     Picture,
     Quote,
+    Report,
     ReportCell,
     Rule,
     Styled,
     Text,
     plain,
 )
+from notebook_reports.export.read.css import readable_on
 from notebook_reports.export.read.notebook import beside
-from notebook_reports.export.write.breaking import pieces
+from notebook_reports.export.read.picture_sizes import pixel_width
+from notebook_reports.export.write.breaking import pieces as line_ends
 from notebook_reports.export.write.column_widths import TEXT_HEIGHT, TEXT_WIDTH, deciding, height, unbroken, words
+from notebook_reports.export.write.glyphs import without_absent
 from notebook_reports.export.write.highlighting import lines
 from notebook_reports.export.write.svg_fonts import with_known_fonts
-from notebook_reports.export.write.typst_text import LONGEST_CODE_IN_A_TABLE, LONGEST_WORD, breakable, literal
+from notebook_reports.export.write.typst_text import (
+    LONGEST_ADDRESS,
+    LONGEST_CODE_IN_A_TABLE,
+    LONGEST_IN_A_LISTING,
+    LONGEST_WORD,
+    breakable,
+    flowing,
+    literal,
+    pieces,
+)
 
 STYLES = ("emph", "strong", "strike", "underline", "sub", "super")
 IMPORT = '#import "report.typ": ' + ", ".join(
     (
         *("report", "book", "part", "chapter", "section", "landscape"),
-        *("m", "long-m", "code", "inner", "outer", "page-of", "task", "quoted", "inline-picture"),
-        *("listing", "formula", "drawing", "data-table", "thematic-break", "marked"),
+        *("m", "long-m", "small-m", "code", "inner", "outer", "page-of", "task", "quoted", "inline-picture"),
+        *("listing", "formula", "drawing", "data-table", "thematic-break", "marked", "brk", "tinted", "alert"),
+        *("mend", "mend-words", "mend-remark", "mend-list"),
         *("probe", "probe-code", *(f"probe-{style}" for style in STYLES)),
     )
 )
@@ -59,7 +75,6 @@ LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 0.3 * TEXT_HEIGHT
 """Points of height, by estimate, from which on a table may go on over pages."""
-_UNBROKEN = re.compile(r"\S{60}")
 
 
 @dataclass
@@ -69,7 +84,7 @@ class TypstWriter:
     name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
     leads to its own PDF beside this one. turned: the tables that get a landscape page, by name, count and content
-    ("a/b 3 1f0c").
+    ("a/b 3 1f0c"). grids: the tables written, by that name.
     probing: write what is only measured. The engine looks for a measured element in the page and, having found it, lays
     all out anew; so what is measured equals nothing on the page, but is as wide.
     """
@@ -79,6 +94,7 @@ class TypstWriter:
     chapters: dict[str, set[str]] | None = None
     turned: frozenset[str] = frozenset()
     files: dict[str, bytes] = field(default_factory=dict)
+    grids: dict[str, Grid] = field(default_factory=dict)
     cell: int = 0
     tables: int = 0
     in_table: bool = False
@@ -117,6 +133,10 @@ class TypstWriter:
                 return f"#terms({', '.join(parts)})"
             case Quote(blocks):
                 return f"#quoted[{self.blocks(blocks)}]"
+            case Alert(kind, blocks):
+                return f"#alert({literal(kind)})[{self.blocks(blocks)}]"
+            case Mend():
+                return self.mend(block)
             case Rule():
                 return "#thematic-break()"
             case Grid():
@@ -129,21 +149,21 @@ class TypstWriter:
     def listing(self, block: Listing, keep: bool = False) -> str:
         """Preformatted text, cut where its colours change. keep: a short one stays on the page of what follows it."""
         kept = ", keep: true" if keep and block.text.count("\n") < 15 else ""
+        text = self.shown(block.text).replace("\u200b", "")
         rows = ""
-        if block.language:
-            rows = ", ".join(
-                f"({''.join(f'({literal(kind)}, {literal(text)}),' for kind, text in row)})"
-                for row in lines(block.text, block.language)
-            )
-        long = ", long: true" if _UNBROKEN.search(block.text) else ""
-        return f"#listing({literal(block.role)}, {literal(block.text)}, ({rows}{',' if rows else ''}){kept}{long})"
+        if block.language or any(_stuck(line) for line in text.split("\n")):
+            rows = "".join(f"({''.join(runs_of(row))}), " for row in lines(text, block.language))
+        return f"#listing({literal(block.role)}, {literal(text)}, ({rows}){kept})"
 
     def bullets(self, block: Bullets) -> str:
-        items = ", ".join(f"[{self.item(item, block.tight)}]" for item in block.items)
+        items = [f"[{self.item(item, block.tight)}]" for item in block.items]
         tight = "true" if block.tight else "false"
-        if block.ordered:
-            return f"#enum(tight: {tight}, start: {block.start}, {items})"
-        return f"#list(tight: {tight}, {items})"
+        if not block.ordered:
+            return f"#list(tight: {tight}, {', '.join(items)})"
+        style = f", numbering: {literal(block.style + '.')}" if block.style != "1" else ""
+        if any(item.value is not None for item in block.items):
+            items = [f"enum.item({n}, {item})" for n, item in zip(block.numbers, items, strict=True)]
+        return f"#enum(tight: {tight}, start: {block.start}{style}, {', '.join(items)})"
 
     def item(self, item: Item, tight: bool) -> str:
         box = "" if item.checked is None else '#task(true);#" ";' if item.checked else '#task(false);#" ";'
@@ -155,13 +175,19 @@ class TypstWriter:
     def node(self, node: Inline) -> str:
         match node:
             case Text(text):
-                return f"#{literal(breakable(text))};" if text else ""
+                stuck = LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_WORD
+                return flowing(self.shown(text), stuck=stuck) if text else ""
             case Code(text):
-                return f"#{'probe-code' if self.probing else 'code'}({literal(self.code(text))});"
-            case Math(latex):
-                return self.math(latex)
+                return self.code(self.shown(text))
+            case Math():
+                return self.math(node)
             case Styled(style, children):
                 return f"#{'probe-' if self.probing else ''}{style}[{self.inline(children)}];"
+            case Coloured(children, ink, ground):
+                inside = self.inline(children)
+                return inside if self.probing else f"#tinted({literal(ink)}, {literal(ground)})[{inside}];"
+            case Mend():
+                return self.mend_in_line(node)
             case Link():
                 return self.link(node)
             case PageNumber(target):
@@ -179,21 +205,83 @@ class TypstWriter:
 
     def code(self, text: str) -> str:
         """Code inside a line, with places to break; columns of a table are narrow."""
-        return breakable(text, LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_WORD)
+        longest = LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_WORD
+        if self.probing:
+            return f"#probe-code[{flowing(text, longest, longest)}];"
+        parts = pieces(text, longest, longest)
+        text = text.replace("\u200b", "")
+        if len(parts) <= 1 and not any(boxed for _, boxed in parts):
+            return f"#code({literal(text)});"
+        return f"#code({literal(text)}, shown: [{flowing(text, longest, longest)}]);"
 
-    def math(self, latex: str) -> str:
+    def math(self, node: Math) -> str:
         """A formula inside a line. A long one comes with its pieces, so that it is known whether lines can hold it."""
+        latex = node.latex
         if self.probing:
             return f"#probe(${as_typst(latex, False)}$);"
         formula = f"{literal(as_text(latex))}, ${as_typst(latex, False)}$"
+        if node.small:
+            return f"#small-m({formula});"
         if len(as_text(latex)) < LONG_FORMULA:
             return f"#m({formula});"
         parts = ", ".join(f"${as_typst(part, False)}$" for part in _lines(latex))
-        return f"#long-m({self.where('a formula inside a line')}, {formula}, ({parts},));"
+        return f"#long-m({self.where('a formula inside a line', digest(latex))}, {formula}, ({parts},));"
+
+    def shown(self, text: str) -> str:
+        """The text with names in place of the characters that no font has, as far as they are known."""
+        return without_absent(text)
+
+    def mend(self, mend: Mend) -> str:
+        """What stands in place of a block: a box, or for a remark a line."""
+        told = f"{mend.number}, {self.label(f'mend-{mend.number}')}, {self.label(f'mend-list-{mend.number}')}"
+        if mend.remark:
+            return f"#mend-remark({told})[{self.sentence(mend)}]"
+        address = f"[{self.whole(mend.address)}]" if mend.address else "none"
+        words = f"[{self.plain(mend.text)}]" if mend.text.strip() else "none"
+        source = "true" if mend.kind in ("formula", "cell") else "false"
+        parts = f"{literal(KINDS[mend.kind])}, [{self.plain(mend.reason)}], {words}, {address}, {source}"
+        return f"#mend({told}, {parts})"
+
+    def mend_in_line(self, mend: Mend) -> str:
+        """The same inside a line."""
+        if self.probing:
+            return self.plain(sentence(mend))
+        told = f"{mend.number}, {self.label(f'mend-{mend.number}')}, {self.label(f'mend-list-{mend.number}')}"
+        text = self.sentence(mend)
+        if mend.kind == "formula" and mend.text:
+            text = self.plain(f"{mend.text} (") + text + self.plain(")")
+        remark = "true" if mend.remark else "false"
+        return f"#mend-words({told}, {remark})[{text}];"
+
+    def plain(self, text: str) -> str:
+        return flowing(self.shown(text), stuck=LONGEST_CODE_IN_A_TABLE) if text else ""
+
+    def whole(self, address: str) -> str:
+        """An address; a short one is not broken into lines, so that it can be found and copied."""
+        return f"#box({literal(self.shown(address))});" if len(address) <= LONGEST_ADDRESS else self.plain(address)
+
+    def sentence(self, mend: Mend) -> str:
+        told, address = sentence(mend), f"({mend.address})"
+        if not mend.address or not told.endswith(address):
+            return self.plain(told)
+        return f"{self.plain(told.removesuffix(address) + '(')}{self.whole(mend.address)}{self.plain(')')}"
+
+    def mends(self, report: Report) -> str:
+        """The list of mends at the end, or nothing."""
+        if not report.mends:
+            return ""
+        entries = "".join(
+            f"({m.number}, {cell}, {self.label(f'mend-{m.number}')}, {self.label(f'mend-list-{m.number}')}, "
+            f"[{self.sentence(m)}]),\n"
+            for cell, m in report.mends
+        )
+        return f"// cell 0\n#mend-list(({entries}))"
 
     def link(self, link: Link) -> str:
         inside = self.inline(link.children)
         if self.probing:
+            return inside
+        if link.kind == "nowhere":
             return inside
         if link.kind == "internal":
             return f"#inner({self.label(link.target)})[{inside}];"
@@ -213,7 +301,10 @@ class TypstWriter:
             broken = "".join(f"({literal(as_text(p))}, ${as_typst(p, True)}$), " for p in parts)
         label = literal(f"({block.label})") if block.label else "none"
         anchor = self.label(block.anchor) if block.anchor else "none"
-        return f"#formula({self.where('a formula')}, {whole}, ({broken}), {label}, {anchor})"
+        small = ", small: true" if block.small else ""
+        return (
+            f"#formula({self.where('a formula', digest(block.latex))}, {whole}, ({broken}), {label}, {anchor}{small})"
+        )
 
     def grid(self, grid: Grid) -> str:
         self.in_table = True
@@ -222,7 +313,8 @@ class TypstWriter:
         caption = f"[{self.inline(grid.caption)}]" if grid.caption else "none"
         notes = "".join(f"[{self.inline(note)}], " for note in grid.notes)
         self.tables += 1
-        id = f"{self.name} {self.tables} {hashlib.sha256(measured.encode()).hexdigest()[:16]}"
+        id = f"{self.name} {self.tables} {digest(measured)}"
+        self.grids[id] = grid
         where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.rows}, {grid.head_rows}"
         short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
@@ -259,6 +351,11 @@ class TypstWriter:
             optional += f", colspan: {cell.colspan}, rowspan: {cell.rowspan}"
         if cell.mark:
             optional += f", mark: {literal(cell.mark)}"
+        if cell.ink or cell.ground:
+            ink = cell.ink or readable_on(cell.ground)
+            optional += f", ink: rgb({literal(ink)})"
+        if cell.ground:
+            optional += f", ground: rgb({literal(cell.ground)})"
         head = "true" if cell.head else "false"
         body = self.inline(cell.children)
         return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
@@ -266,11 +363,13 @@ class TypstWriter:
     def _solid(self, cell: Cell) -> str:
         """The pieces of a cell that no line end divides, the longest word and each formula."""
         nodes = cell.children
-        longest = max(words(breakable(plain([n for n in nodes if not isinstance(n, Math | Code)]))), key=len)
+        text = self.shown(plain([n for n in nodes if not isinstance(n, Math | Code)]))
+        longest = max(words(breakable(text)), key=len)
         parts = [f"[#{literal(longest)};]"] if longest else []
         for node in nodes:
             if isinstance(node, Code):
-                parts.append(f"[{self.node(Code(max(words(self.code(node.text)), key=len)))}]")
+                code = breakable(self.shown(node.text), LONGEST_CODE_IN_A_TABLE)
+                parts.append(f"[{self.node(Code(max(words(code), key=len)))}]")
             elif isinstance(node, Math):
                 short = len(as_text(node.latex)) < LONG_FORMULA
                 parts += [
@@ -280,20 +379,71 @@ class TypstWriter:
 
     def picture(self, picture: Picture) -> str:
         """The arguments that name a picture: file, alternative text, width in points or none."""
-        data = with_known_fonts(picture.data) if picture.kind == "svg" else picture.data
+        data = self.drawing(picture.data) if picture.kind == "svg" else picture.data
         file = f"picture-{hashlib.sha256(data).hexdigest()[:16]}.{picture.kind}"
         self.files[file] = data
-        width = picture.width
-        if width is None and picture.kind == "png":
-            width = struct.unpack(">I", picture.data[16:20])[0]
-        points = "none" if width is None else f"{min(width * 0.75, TEXT_WIDTH):g}pt"
-        return f"{literal(file)}, {literal(picture.alt)}, {points}"
+        width, height = picture.width, picture.height
+        if width is None and height is None and picture.share is None and picture.kind != "svg":
+            width = pixel_width(picture.data, picture.kind)
+        wide = "none" if width is None else f"{min(width * 0.75, TEXT_WIDTH):g}pt"
+        wide = f"{picture.share * 100:g}%" if picture.share else wide
+        high = "none" if height is None else f"{min(height * 0.75, TEXT_HEIGHT):g}pt"
+        return f"{literal(file)}, {literal(picture.alt)}, {wide}, {high}"
 
-    def where(self, what: str) -> str:
-        return literal(f"{self.cell}|{what}|")
+    def drawing(self, svg: bytes) -> bytes:
+        """The drawing with fonts we have and without characters that these have not."""
+        return with_known_fonts(without_absent(svg.decode(), "□").encode())
+
+    def where(self, what: str, id: str) -> str:
+        return literal(f"{self.cell}|{what}|{id}")
+
+
+def digest(text: str) -> str:
+    """What a piece of a report is called between the engine and us: the same for the same content."""
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _stuck(line: str) -> bool:
+    """Are there places in a line of a listing that we have to give it to break?"""
+    return len(line) > LONGEST_IN_A_LISTING and len(pieces(line, LONGEST_IN_A_LISTING, LONGEST_IN_A_LISTING)) > 1
+
+
+def runs_of(row: list[tuple[str, str]]) -> list[str]:
+    """One line of a listing in runs of one colour, with the places where it may be broken.
+
+    A run is ``("kind", "text"),``; ``none,`` is a place to break; several runs in a box are ``(box: (…)),``.
+    """
+    line = "".join(text for _, text in row)
+    parts = pieces(line, LONGEST_IN_A_LISTING, LONGEST_IN_A_LISTING)
+    if len(parts) <= 1 and not any(boxed for _, boxed in parts):
+        return [f"({literal(kind)}, {literal(text)})," for kind, text in row]
+    found: list[str] = []
+    rest = list(row)
+    before = True
+    for piece, boxed in parts:
+        runs, left = "", len(piece)
+        while left and rest:
+            kind, text = rest.pop(0)
+            runs += f"({literal(kind)}, {literal(text[:left])}),"
+            if len(text) > left:
+                rest.insert(0, (kind, text[left:]))
+            left -= min(left, len(text))
+        found += [] if before or boxed else ["none,"]
+        found.append(f"(box: ({runs}))," if boxed else runs)
+        before = boxed
+    return found
 
 
 def _lines(latex: str) -> list[str]:
     """The pieces of a formula between possible line ends, each a formula: an operator at its start has two sides."""
-    first, *rest = pieces(latex)
+    parts: list[str] = []
+    left = ""
+    for part in line_ends(latex):
+        left += part
+        if understood(left if not parts else "{}" + left):
+            parts.append(left)
+            left = ""
+    if left or not parts:
+        return [latex]
+    first, *rest = parts
     return [first, *("{}" + part for part in rest)]

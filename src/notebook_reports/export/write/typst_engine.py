@@ -26,11 +26,23 @@ class Diagnostic:
     line: int | None
 
 
-class TypstFailed(RuntimeError):
-    """The source does not compile; `diagnostics` say why."""
+@dataclass(frozen=True)
+class TooWide:
+    """What fits the page only at less than the least size: a table or a formula of a cell, by the writer's name for it.
+    share: of its size at which it would fit."""
 
-    def __init__(self, diagnostics: list[Diagnostic]):
+    cell: int
+    what: str
+    id: str
+    share: float
+
+
+class TypstFailed(RuntimeError):
+    """The source does not compile; `diagnostics` say why, `wide` what is too wide."""
+
+    def __init__(self, diagnostics: list[Diagnostic], wide: list[TooWide] | None = None):
         self.diagnostics = diagnostics
+        self.wide = wide or []
         self.source = ""
         self.files: dict[str, bytes] = {}
         super().__init__("; ".join(d.message for d in diagnostics))
@@ -61,7 +73,7 @@ def fonts() -> Any:
 
 
 def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
-    """Compile main.typ beside its files to PDF/A-2a and PDF/UA-1. Raises TypstFailed."""
+    """Compile main.typ beside its files to PDF/A-2a and PDF/UA-1. Raises TypstFailed, with all that is too wide."""
     import typst
 
     with tempfile.TemporaryDirectory(prefix="loopbook-pdf-") as folder:
@@ -76,10 +88,14 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
                 str(main), root=folder, font_paths=fonts(), package_path=nowhere, package_cache_path=nowhere
             )
             pdf, warnings = compiler.compile_with_warnings(timestamp=int(EPOCH), pdf_standards=list(STANDARDS))
+            noted = json.loads(compiler.query("<too-wide>", field="value"))
         except typst.TypstError as error:
             raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
-    if warnings:
-        raise TypstFailed([d for w in warnings for d in _diagnostics(w.diagnostic, w.message)])
+    wide = [TooWide(int(cell), what, id, int(share) / 100) for cell, what, id, share in (w.split("|") for w in noted)]
+    found = [d for w in warnings for d in _diagnostics(w.diagnostic, w.message)]
+    found += [Diagnostic(f"loopbook|{w.cell}|{w.what}|{w.id}|{w.share * 100:.0f}", None) for w in dict.fromkeys(wide)]
+    if found:
+        raise TypstFailed(found, list(dict.fromkeys(wide)))
     return pdf
 
 
@@ -131,8 +147,7 @@ def compile_turning(write: Callable[[frozenset[str]], tuple[str, dict[str, bytes
         try:
             return compile_pdf(source, files)
         except TypstFailed as error:
-            wide = [m for d in error.diagnostics if (m := _TOO_WIDE.search(d.message)) and m["table"]]
-            more = {m["table"] for m in wide if int(m["share"]) >= LANDSCAPE_FROM} - turned
+            more = {w.id for w in error.wide if " " in w.id and w.share >= LANDSCAPE_FROM / 100} - turned
             if not more:
                 error.source, error.files = source, files
                 raise
@@ -162,7 +177,7 @@ def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | N
 def too_wide_table(diagnostic: Diagnostic) -> str:
     """The name, count and content of the table that is too wide, or nothing."""
     wide = _TOO_WIDE.search(diagnostic.message)
-    return wide["table"] if wide else ""
+    return wide["table"] if wide and " " in wide["table"] else ""
 
 
 def cell_finder(source: str, pictures: dict[str, bytes]) -> Callable[[int | None, str], int | None]:

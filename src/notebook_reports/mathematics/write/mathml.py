@@ -203,6 +203,8 @@ def _node(node: n.Node, cls: str, script: bool, spaces: tuple[float, float] = (0
             return f'<mrow style="background:{_strokes(node.kind)}">{_row(node.body, script)}</mrow>'
         case n.Colored():
             return f'<mrow style="color:{node.color}">{_row(node.body, script)}</mrow>'
+        case n.Sized():
+            return f'<mrow style="font-size:{_em(node.factor)}">{_row(node.body, script)}</mrow>'
         case n.TagNode():
             return f"<mrow>{_mspace(2.0)}<mtext>{_hard_spaces(node.tag.text)}</mtext></mrow>"
     raise TypeError(f"no MathML form for {type(node).__name__}")

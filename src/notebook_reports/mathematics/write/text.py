@@ -73,7 +73,7 @@ def _node(node: n.Node) -> str:
             return f"{_bracketed(node.body)} {_ACCENT.get(node.name, node.name)}"
         case n.Line():
             return f"{_bracketed(node.body)} {'bar' if node.over else 'underlined'}"
-        case n.Brace() | n.Boxed() | n.Colored():
+        case n.Brace() | n.Boxed() | n.Colored() | n.Sized():
             return _list(node.body)
         case n.Stack():
             notes = [_list(part) for part in (node.over, node.under) if part]

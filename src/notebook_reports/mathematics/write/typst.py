@@ -197,6 +197,8 @@ def _node(node: n.Node, cls: str, style: str) -> str:
             return f"cancel({_list(node.body, style)}{_CANCEL[node.kind]})"
         case n.Colored():
             return f'std.text(fill: #rgb("{node.color}"), {_list(node.body, style)})'
+        case n.Sized():
+            return f"std.text(size: #{_em(node.factor)}, {_list(node.body, style)})"
         case n.TagNode():
             return _space(2.0) + string(node.tag.text)
     raise TypeError(f"no Typst form for {type(node).__name__}")

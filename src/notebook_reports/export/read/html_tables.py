@@ -1,0 +1,73 @@
+"""Tables in HTML: their head, their spans, the looks of their cells."""
+
+import re
+from typing import TYPE_CHECKING
+
+from bs4 import Tag
+
+from notebook_reports.export.errors import CannotShow
+from notebook_reports.export.model import Block, Cell, Mend, Styled
+from notebook_reports.export.read.tables import MAX_ROWS, align_numbers, place
+
+if TYPE_CHECKING:
+    from notebook_reports.export.read.html import HtmlReader
+
+_MOST_SPAN = 1000
+
+
+def read(reader: "HtmlReader", tag: Tag, math: bool) -> list[Block]:
+    """The table; of one that only arranges other blocks, these one after the other. Raises CannotShow."""
+    if tag.find("table") or (reader.reading.mending and _arranges(tag)):
+        if not reader.reading.mending:
+            raise CannotShow("an HTML table inside a table cell; show the tables one after the other")
+        cells = [c for c in tag.find_all(["th", "td", "caption"]) if c.find_parent("table") is tag]
+        return [block for cell in cells if not reader.looks.of(cell).hidden for block in reader.blocks(cell, math)]
+    caption = tag.find("caption")
+    sections: dict[str, list[Tag]] = {"thead": [], "tbody": [], "tfoot": []}
+    for row in tag.find_all("tr"):
+        if not reader.looks.of(row).hidden:
+            sections[row.parent.name if row.parent.name in sections else "tbody"].append(row)
+    head = sections["thead"]
+    rows = head + sections["tbody"] + sections["tfoot"]
+    if not head:
+        leading = [row.find("td") is None and row.find("th") is not None for row in rows]
+        head = rows[: leading.index(False) if False in leading else 0]
+    after: list[Block] = []
+    if reader.reading.mending and len(rows) > MAX_ROWS:
+        after.append(
+            Mend("text", f"{len(rows) - MAX_ROWS:,} rows of {len(rows):,} are left out after row {MAX_ROWS:,}")
+        )
+        rows = rows[:MAX_ROWS]
+    cells = [
+        [_cell(reader, c, math) for c in row.find_all(["th", "td"], recursive=False) if not reader.looks.of(c).hidden]
+        for row in rows
+    ]
+    if not any(cells):
+        return []
+    grid = place(cells, min(len(head), len(rows)))
+    align_numbers(grid)
+    grid.caption = reader.line(caption, math) if caption and not reader.looks.of(caption).hidden else []
+    return [grid, *after]
+
+
+def _arranges(tag: Tag) -> bool:
+    """Does the table only put blocks beside each other? Then a cell holds code of several lines or a heading."""
+    cells = tag.find_all(["td", "th"])
+    if len(cells) > 24:
+        return False
+    blocks = [pre for pre in tag.find_all(["pre", "h1", "h2", "h3", "figure"]) if "\n" in pre.get_text().strip()]
+    return bool(blocks) or (len(cells) == 1 and len(tag.get_text().split()) > 40)
+
+
+def _cell(reader: "HtmlReader", tag: Tag, math: bool) -> Cell:
+    spans = {key: _span(tag, key) for key in ("colspan", "rowspan")}
+    look = reader.looks.of(tag)
+    children = reader.line(tag, math)
+    for style, asked in (("strong", look.bold and tag.name != "th"), ("emph", look.italic), ("strike", look.strike)):
+        children = [Styled(style, children)] if asked and children else children
+    return Cell(children, align=look.align, head=tag.name == "th", ink=look.ink, ground=look.ground, **spans)
+
+
+def _span(tag: Tag, key: str) -> int:
+    found = re.match(r"\d+", str(tag.get(key, "")))
+    return min(max(1, int(found[0])), _MOST_SPAN) if found else 1

@@ -1,0 +1,222 @@
+"""What shows only when a report is written: formulas that are not understood, what is too wide for a page, characters
+that no font has, pictures that the engine cannot read. Each becomes a `Mend`, and the report is written again.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+
+from notebook_reports.export.formulas import as_mathml, as_text, as_typst
+from notebook_reports.export.mends import number
+from notebook_reports.export.model import (
+    Block,
+    Display,
+    Figure,
+    Grid,
+    Listing,
+    Math,
+    Mend,
+    Picture,
+    Report,
+    ReportCell,
+    plain,
+    rewrite,
+    walk,
+)
+from notebook_reports.export.write.glyphs import absent_in, name_of, note_absent
+from notebook_reports.export.write.typst import digest
+from notebook_reports.export.write.typst_engine import (
+    LANDSCAPE_FROM,
+    TooWide,
+    TypstFailed,
+    cell_finder,
+    compile_pdf,
+    explain,
+)
+from notebook_reports.export.write.wide_tables import split
+from notebook_reports.mathematics.tolerant import readings
+
+Written = tuple[str, dict[str, bytes], dict[str, Grid]]
+"""Typst source, the files beside it, and the tables in it by their name."""
+
+MOST_PASSES = 25
+SMALLEST = 0.25
+"""The share of its size below which a formula is shown as its source instead."""
+
+
+def mend_formulas(report: Report, form: str) -> None:
+    """Replace each formula that the converter to "typst" or "mathml" refuses by one that it reads, or by a `Mend`."""
+    from notebook_reports.mathematics import MathError
+
+    convert = as_typst if form == "typst" else as_mathml
+
+    def mended(node: object) -> list[Block] | None:
+        if not isinstance(node, Math | Display):
+            return None
+        refused = None
+        for latex in readings(node.latex):
+            try:
+                convert(latex, isinstance(node, Display))
+                as_text(latex)
+            except (MathError, RecursionError) as error:
+                refused = refused or error
+                continue
+            node.latex = latex
+            return None
+        reason = getattr(refused, "reason", "") or "it is nested too deeply"
+        return [Mend("formula", reason, node.latex)]
+
+    rewrite(report.title, mended)
+    rewrite(report.cells, mended)
+
+
+def compile_mending(report: Report, write: Callable[[frozenset[str]], Written]) -> bytes:
+    """Compile the report; whatever the engine cannot show is mended in it. Raises TypstFailed where that fails."""
+    turned: frozenset[str] = frozenset()
+    failed: TypstFailed | None = None
+    for _ in range(MOST_PASSES):
+        source, files, grids = write(turned)
+        try:
+            pdf = compile_pdf(source, files)
+        except TypstFailed as error:
+            failed = error
+            error.source, error.files = source, files
+            more = {w.id for w in error.wide if w.id in grids and w.share >= LANDSCAPE_FROM / 100} - turned
+            turned |= more
+            narrow = [w for w in error.wide if w.id not in turned or (w.id in turned and w.id not in more)]
+            changed = [_narrowed(report, w, grids) for w in narrow]
+            changed.append(bool(more))
+            if not error.wide:
+                changed.append(_without(report, error))
+            if not any(changed):
+                raise
+            number(report)
+            continue
+        if _name_absent(report):
+            number(report)
+            source, files, grids = write(turned)
+            return compile_pdf(source, files)
+        return pdf
+    raise failed or TypstFailed([])
+
+
+# -- too wide ----------------------------------------------------------------------------------------------------------
+
+
+def _narrowed(report: Report, wide: TooWide, grids: dict[str, Grid]) -> bool:
+    """Split a table that is too wide, or make a formula as small as it has to be, with a line that says so."""
+    if wide.id in grids:
+        return _replace(report, grids[wide.id], split(grids[wide.id], wide.share))
+
+    def smaller(node: object) -> list[Block] | None:
+        if not isinstance(node, Math | Display) or node.small or digest(node.latex) != wide.id:
+            return None
+        if wide.share < SMALLEST:
+            return [Mend("formula", "it is too wide for a page", node.latex)]
+        node.small = True
+        told = f"set at {wide.share:.0%} of its size, to fit the page"
+        return [node, Mend("formula", told, remark=True)] if isinstance(node, Display) else None
+
+    before = sum(1 for node in walk(report.cells) if isinstance(node, Mend) or getattr(node, "small", False))
+    rewrite(report.cells, smaller)
+    return before != sum(1 for node in walk(report.cells) if isinstance(node, Mend) or getattr(node, "small", False))
+
+
+def _replace(report: Report, old: object, new: list[Block]) -> bool:
+    found = []
+
+    def change(node: object) -> list[Block] | None:
+        if node is not old:
+            return None
+        found.append(node)
+        return new
+
+    rewrite(report.cells, change)
+    return bool(found) and new != [old]
+
+
+# -- what the engine refuses -------------------------------------------------------------------------------------------
+
+_GLYPH = re.compile(r'(?:the text|contains the codepoint) `"(?P<text>.*)"`')
+_PICTURE = re.compile(r"picture-[0-9a-f]{16}\.\w+")
+
+
+def _without(report: Report, error: TypstFailed) -> bool:
+    """Take out of the report what the engine complains of: characters, pictures, or else the whole cell."""
+    find = cell_finder(error.source, error.files)
+    lines = error.source.split("\n")
+    fresh = False
+    for diagnostic in error.diagnostics:
+        glyph = _GLYPH.search(diagnostic.message)
+        if glyph:
+            text = re.sub(r"\\u\{([0-9a-f]+)\}", lambda m: chr(int(m[1], 16)), glyph["text"])
+            fresh |= note_absent(text)
+            continue
+        named = _PICTURE.findall(lines[diagnostic.line - 1]) if diagnostic.line else []
+        cell, told = explain(diagnostic, find)
+        if (
+            "image" in diagnostic.message.lower()
+            or "svg" in diagnostic.message.lower()
+            or "decode" in diagnostic.message
+        ):
+            fresh |= _without_pictures(report, cell, set(named), diagnostic.message)
+        elif cell:
+            fresh |= _as_text(report, cell, told)
+    return fresh
+
+
+def _without_pictures(report: Report, cell: int | None, named: set[str], message: str) -> bool:
+    found = []
+
+    def change(node: object) -> list[Block] | None:
+        picture = node.picture if isinstance(node, Figure) else node
+        if not isinstance(picture, Picture):
+            return None
+        found.append(picture)
+        caption = getattr(node, "caption", [])
+        words = plain(caption) or picture.alt
+        return [Mend("image", f"it cannot be read ({message})", words)]
+
+    for place in report.cells:
+        if cell is None or place.number == cell:
+            rewrite(place, change)
+    return bool(found)
+
+
+def _as_text(report: Report, number_: int, told: str) -> bool:
+    """The whole cell as the characters in it: the last resort."""
+    for cell in report.cells:
+        if cell.number == number_ and not any(isinstance(b, Mend) and b.reason == told for b in cell.blocks):
+            words = "\n".join(_texts(cell))
+            cell.blocks = [Mend("cell", told), Listing(words, "output")]
+            return True
+    return False
+
+
+def _texts(cell: ReportCell) -> Iterator[str]:
+    for node in walk(cell):
+        if isinstance(node, Listing):
+            yield node.text
+        elif isinstance(node, Math | Display):
+            yield node.latex
+        elif hasattr(node, "text") and isinstance(node.text, str):
+            yield node.text
+
+
+# -- characters --------------------------------------------------------------------------------------------------------
+
+
+def _name_absent(report: Report) -> bool:
+    """Say once a cell which characters stand there as their names; did any cell have one?"""
+    said = False
+    for cell in report.cells:
+        if any(isinstance(b, Mend) and b.kind == "character" for b in cell.blocks):
+            continue
+        texts = [*_texts(cell), *(n.alt for n in walk(cell) if isinstance(n, Picture))]
+        drawings = (n.data.decode(errors="replace") for n in walk(cell) if isinstance(n, Picture) and n.kind == "svg")
+        found = dict.fromkeys(c for text in (*texts, *drawings) for c in absent_in(text))
+        if found:
+            shown = ", ".join(name_of(c) for c in list(found)[:8])
+            more = f" and {len(found) - 8} more" if len(found) > 8 else ""
+            cell.blocks.append(Mend("character", f"no font has {shown}{more}; by name here", remark=True))
+            said = True
+    return said

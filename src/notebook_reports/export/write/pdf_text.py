@@ -1,0 +1,248 @@
+"""The text of a PDF that Typst made, run by run in reading order, with its place on the page.
+
+Only what Typst writes is read: plain objects, composite fonts with two bytes a glyph and a table to Unicode. So a page
+is checked: that every word is there, and that none leaves the paper.
+"""
+
+import re
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+Matrix = tuple[float, float, float, float, float, float]
+_IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Run:
+    """Characters in one font on one line. x0, x1, end, y: points from the left and the bottom of the page; x1 is where
+    the last letter ends and end where the last space does; y is of the line. drawn: part of a picture."""
+
+    page: int
+    text: str
+    x0: float
+    x1: float
+    end: float
+    y: float
+    size: float
+    drawn: bool = False
+
+
+@dataclass(frozen=True)
+class _Font:
+    characters: dict[int, str]
+    widths: dict[int, float]
+    usual: float
+
+
+class PdfText:
+    """The pages of one PDF. sizes: width and height of each in points."""
+
+    def __init__(self, pdf: bytes):
+        self._objects = {int(n): body for n, body in re.findall(rb"\n(\d+) 0 obj\n(.*?)\nendobj", pdf, re.DOTALL)}
+        self._fonts: dict[int, _Font] = {}
+        self._kinds: dict[int, bytes] = {}
+        self.pages = self._kids(int(re.search(rb"/Type/Catalog\b.*?/Pages (\d+) 0 R", pdf, re.DOTALL)[1]))
+        boxes = [re.search(rb"/MediaBox\s*\[([^\]]*)\]", self._objects[page]) for page in self.pages]
+        self.sizes = [tuple(float(v) for v in box[1].split()[2:]) for box in boxes if box]
+
+    def _kids(self, number: int) -> list[int]:
+        body = self._objects[number]
+        kids = re.search(rb"/Kids\s*\[([^\]]*)\]", body)
+        if not kids:
+            return [number]
+        return [page for kid in re.findall(rb"(\d+) 0 R", kids[1]) for page in self._kids(int(kid))]
+
+    def runs(self) -> Iterator[Run]:
+        """Every run of text, page by page."""
+        for place, page in enumerate(self.pages, start=1):
+            body = self._objects[page]
+            content = re.search(rb"/Contents (\d+) 0 R", body)
+            if content:
+                resources = self._resources(body)
+                yield from self._read(self._stream(int(content[1])), resources, _IDENTITY, place, False, 0)
+
+    def _resources(self, body: bytes) -> dict[str, dict[str, int]]:
+        found = re.search(rb"/Resources (\d+) 0 R", body)
+        text = self._objects[int(found[1])] if found else body
+        named: dict[str, dict[str, int]] = {}
+        for kind in ("Font", "XObject", "Pattern"):
+            table = re.search(rb"/" + kind.encode() + rb"\s*<<([^>]*)>>", text)
+            pairs = re.findall(rb"/(\S+) (\d+) 0 R", table[1]) if table else []
+            named[kind] = {name.decode(): int(number) for name, number in pairs}
+        return named
+
+    def _stream(self, number: int) -> bytes:
+        body = self._objects[number]
+        start = re.search(rb"stream\r?\n", body)
+        if not start:
+            return b""
+        data = body[start.end() :]
+        end = data.rfind(b"\nendstream")
+        data = data[:end] if end >= 0 else data
+        return zlib.decompressobj().decompress(data) if b"FlateDecode" in body[: start.start()] else data
+
+    def _font(self, number: int) -> _Font:
+        if number not in self._fonts:
+            body = self._objects[number]
+            table = self._stream(int(re.search(rb"/ToUnicode (\d+) 0 R", body)[1]))
+            below = self._objects[int(re.search(rb"/DescendantFonts\s*\[(\d+) 0 R", body)[1])]
+            usual = re.search(rb"/DW ([\d.]+)", below)
+            self._fonts[number] = _Font(_characters(table), _widths(below), float(usual[1]) if usual else 1000.0)
+        return self._fonts[number]
+
+    def _read(self, content, resources, matrix: Matrix, page: int, drawn: bool, depth: int) -> Iterator[Run]:
+        stack: list[Matrix] = []
+        for found in _OPERATORS.finditer(content):
+            match found.lastgroup:
+                case "save":
+                    stack.append(matrix)
+                case "restore" if stack:
+                    matrix = stack.pop()
+                case "moved":
+                    matrix = _times(tuple(float(v) for v in found["moved"].split()[:6]), matrix)
+                case "text":
+                    yield from self._text(found["text"], resources["Font"], matrix, page, drawn)
+                case "drawing" if depth < 12:
+                    number = resources["XObject"].get(found["drawing"].decode())
+                    body = self._objects.get(number or -1, b"")
+                    if b"/Subtype/Form" in body:
+                        own = re.search(rb"/Matrix\s*\[([^\]]*)\]", body)
+                        inner = _times(tuple(float(v) for v in own[1].split()), matrix) if own else matrix
+                        inside = self._resources(body[: body.find(b"stream")])
+                        yield from self._read(self._stream(number), inside, inner, page, True, depth + 1)
+
+    def _text(self, block: bytes, fonts: dict[str, int], matrix: Matrix, page: int, drawn: bool) -> Iterator[Run]:
+        font, size, place = None, 0.0, _IDENTITY
+        for found in _IN_TEXT.finditer(block):
+            match found.lastgroup:
+                case "font":
+                    name, points = found["font"].split()
+                    font, size = self._font(fonts[name[1:].decode()]), float(points)
+                case "place":
+                    place = tuple(float(v) for v in found["place"].split()[:6])
+                case "shown" | "one" if font:
+                    text, advance, inked = "", 0.0, 0.0
+                    for piece in _PIECES.finditer(found[found.lastgroup]):
+                        if piece["shift"]:
+                            advance -= float(piece["shift"])
+                            continue
+                        data = (
+                            bytes.fromhex(piece["hex"].decode()) if piece["hex"] is not None else _plain(piece["raw"])
+                        )
+                        for i in range(0, len(data) - 1, 2):
+                            glyph = data[i] << 8 | data[i + 1]
+                            character = font.characters.get(glyph, "")
+                            text += character
+                            advance += font.widths.get(glyph, font.usual)
+                            inked = inked if character.isspace() else advance
+                    whole = _times(place, matrix)
+                    x0, y = whole[4], whole[5]
+                    ends = (x0 + size * whole[0] * reach / 1000 for reach in (inked, advance))
+                    yield Run(page, text, x0, *ends, y, size * abs(whole[3]), drawn)
+
+
+_NUMBERS = rb"(?:-?[\d.]+\s+){6}"
+_STRING = rb"\((?:\\.|[^\\()]|\((?:\\.|[^\\()]|\((?:\\.|[^\\()])*\))*\))*\)"
+_OPERATORS = re.compile(
+    rb"(?P<text>\bBT\s.*?\sET\b)|(?P<moved>" + _NUMBERS + rb"cm\b)|(?P<drawing>(?<=/)[^\s/]+(?=\s+Do\b))"
+    rb"|(?P<save>(?<![^\s])q(?=\s))|(?P<restore>(?<![^\s])Q(?=\s|$))",
+    re.DOTALL,
+)
+_IN_TEXT = re.compile(
+    rb"(?P<font>/\S+ [\d.]+(?= Tf))|(?P<place>" + _NUMBERS + rb"Tm)"
+    rb"|(?P<shown>\[(?:" + _STRING + rb"|[^\]()])*\](?=\s*TJ))|(?P<one>(?:" + _STRING + rb"|<[0-9A-Fa-f]*>)(?=\s*Tj))",
+    re.DOTALL,
+)
+_PIECES = re.compile(rb"(?P<raw>" + _STRING + rb")|<(?P<hex>[0-9A-Fa-f]*)>|(?P<shift>-?[\d.]+)", re.DOTALL)
+_ESCAPE = re.compile(rb"\\([0-7]{1,3}|\r?\n|.)", re.DOTALL)
+_NAMED = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
+
+
+def _plain(raw: bytes) -> bytes:
+    def named(found: re.Match[bytes]) -> bytes:
+        code = found[1]
+        if code[:1] in b"01234567":
+            return bytes([int(code, 8) & 255])
+        return b"" if code.endswith(b"\n") else _NAMED.get(code, code)
+
+    return _ESCAPE.sub(named, raw[1:-1])
+
+
+def _times(a: Matrix, b: Matrix) -> Matrix:
+    return (
+        a[0] * b[0] + a[1] * b[2],
+        a[0] * b[1] + a[1] * b[3],
+        a[2] * b[0] + a[3] * b[2],
+        a[2] * b[1] + a[3] * b[3],
+        a[4] * b[0] + a[5] * b[2] + b[4],
+        a[4] * b[1] + a[5] * b[3] + b[5],
+    )
+
+
+def _characters(table: bytes) -> dict[int, str]:
+    found: dict[int, str] = {}
+    for block in re.findall(rb"beginbfchar(.*?)endbfchar", table, re.DOTALL):
+        for glyph, text in re.findall(rb"<([0-9A-Fa-f]+)>\s*<([0-9A-Fa-f]*)>", block):
+            found[int(glyph, 16)] = bytes.fromhex(text.decode()).decode("utf-16-be", errors="replace")
+    for block in re.findall(rb"beginbfrange(.*?)endbfrange", table, re.DOTALL):
+        for first, last, text in re.findall(rb"<([0-9A-Fa-f]+)>\s*<([0-9A-Fa-f]+)>\s*<([0-9A-Fa-f]+)>", block):
+            for glyph in range(int(first, 16), int(last, 16) + 1):
+                found[glyph] = chr(int(text, 16) + glyph - int(first, 16))
+    return found
+
+
+def _widths(font: bytes) -> dict[int, float]:
+    table = re.search(rb"/W\s*\[(.*)\]", font, re.DOTALL)
+    found: dict[int, float] = {}
+    tokens = re.findall(rb"\[|\]|[\d.]+", table[1]) if table else []
+    i = 0
+    while i < len(tokens):
+        if i + 1 < len(tokens) and tokens[i + 1] == b"[":
+            glyph, i = int(tokens[i]), i + 2
+            while i < len(tokens) and tokens[i] != b"]":
+                found[glyph] = float(tokens[i])
+                glyph, i = glyph + 1, i + 1
+            i += 1
+        elif i + 2 < len(tokens):
+            width = float(tokens[i + 2])
+            found.update(dict.fromkeys(range(int(tokens[i]), int(tokens[i + 1]) + 1), width))
+            i += 3
+        else:
+            break
+    return found
+
+
+def text_of(runs: list[Run]) -> str:
+    """The runs as text: on one line without a gap they are one word, and a word divided at a line's end is whole."""
+    text, last = "", None
+    for run in runs:
+        near = last and last.page == run.page and abs(last.y - run.y) < 0.5 * run.size
+        if text.endswith("\u00ad") and not near:
+            text = text[:-1]
+        elif last and not (near and abs(run.x0 - last.end) < 0.12 * run.size):
+            text += "\n" if not near else " "
+        text += run.text
+        last = run
+    return text
+
+
+MARGIN_X, MARGIN_TOP, MARGIN_BOTTOM = 2.5 * 72 / 2.54, 2.7 * 72 / 2.54, 2.5 * 72 / 2.54
+"""Points between the edge of a page and its text: the margins of ``report.typ``."""
+_SLACK = 5.0
+"""Points that a letter may stand out: punctuation and slanted letters do."""
+
+
+def outside(pages: PdfText) -> list[Run]:
+    """The runs that leave the text block of their page; heads and page numbers, and words in pictures, do not count."""
+    found = []
+    for run in pages.runs():
+        width, height = pages.sizes[run.page - 1]
+        if run.drawn or not run.text.strip():
+            continue
+        head = run.y > height - MARGIN_TOP or (run.y < MARGIN_BOTTOM - _SLACK and re.fullmatch(r"[\d /]+", run.text))
+        beside = run.x0 < MARGIN_X - _SLACK or run.x1 > width - MARGIN_X + _SLACK
+        below = run.y < MARGIN_BOTTOM - _SLACK
+        if beside or (below and not head):
+            found.append(run)
+    return found
