@@ -3,8 +3,8 @@
 import pytest
 import sympy as sp
 
-from loopbook.documents.printed_formulas import FormulaError, formulas
 from loopbook.documents.open import printed
+from loopbook.documents.printed_formulas import FormulaError, formulas
 from notebook_reports.ledger.printed_data import Claim
 
 
