@@ -1,17 +1,25 @@
 """Make the environment that everything runs in: a venv, the locked packages, the project itself.
 
-Run as ``python3 tools/bootstrap.py .venv``. It needs the standard library only and any Python 3, so that a Python that
-is too old gets a line it can read. Exit code 3 says that the environment could not be made; the last thing it writes
-is the file ``ready``, so a broken-off installation is never taken for a whole one.
+    python3 tools/bootstrap.py .venv            makes it anew, from environment.txt
+    python3 tools/bootstrap.py .venv interop    adds locks/interop.txt to it
+
+uv installs, itself a locked wheel (tools/uv.txt); where it does not run, pip does: the same packages, the same hashes.
+This needs the standard library only and any Python 3, so that a Python that is too old gets a line it can read. Exit
+code 3 says that the environment could not be made; the last thing written is the file ``ready``, with the folders
+it was made for, so that neither a broken-off installation nor a copied one is taken for a whole one.
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 
+from pip_settings import uv_environment
+
 OLDEST = (3, 11)
-NEWEST_TRIED = 13
+NEWEST_TRIED = 14
+LOCK, INSTALLER = "environment.txt", os.path.join("tools", "uv.txt")
 
 
 def stop(message):
@@ -44,34 +52,88 @@ def interpreter():
     )
 
 
-def reason(log):
-    """The line of an installer's log that a person needs, and what to do about it."""
+UNSAFE = ("do not match the hash", "hash mismatch")
+FULL = ("no space left", "disk quota exceeded")
+NETWORK = (
+    *("connection", "timed out", "temporary failure", "name resolution", "network is unreachable", "max retries"),
+    *("failed to fetch", "error sending request", "dns error", "failed to lookup address", "failed to connect"),
+)
+ABSENT = ("no matching distribution", "could not find a version")  # what pip says when it cannot even ask
+
+
+def reason(log, lock=LOCK, folder="."):
+    """The line of an installer's log that a person needs, and what to do about it. folder: what it was to fill."""
     with open(log, encoding="utf-8", errors="replace") as file:
         lines = [line.strip() for line in file if line.strip()]
     text = "\n".join(lines).lower()
     errors = [line for line in lines if line.lower().startswith("error")] or lines[-1:] or ["no output"]
-    if "hash" in text and "do not match" in text:
-        return "a downloaded package does not match the hash in environment.txt; run make again, or make lock"
-    network = (
-        *("connection", "timed out", "temporary failure", "name resolution", "network is unreachable", "max retries"),
-        *("no matching distribution", "could not find a version"),  # what pip says when it cannot even ask
-    )
-    if any(word in text for word in network):
-        return f"the packages of environment.txt could not be downloaded: is there a network? ({errors[-1]})"
-    if "no space left" in text:
+    if any(word in text for word in UNSAFE):
+        named = re.search(r"[Hh]ash mismatch for `([^`]+)`|^([\w.-]+==[^\s:;]+)(?: from .*)?:$", "\n".join(lines), re.M)
+        which = f" ({named[1] or named[2]})" if named else ""
+        return f"a downloaded package{which} does not match the hash in {lock}; run make again, or make lock"
+    if any(word in text for word in FULL) or shutil.disk_usage(folder).free < 5e6:
         return "the disk is full; the environment takes about 1 GB"
+    if any(word in text for word in NETWORK + ABSENT):
+        return f"the packages of {lock} could not be downloaded: is there a network? ({errors[-1]})"
     return errors[-1]
 
 
-def run(step, command, log):
-    """Run one step quietly; a failure is one line and the name of the log."""
+def succeeds(command, log, env=None):
+    """Run a command quietly, its words at the end of the log. False where it fails or cannot even start."""
     with open(log, "ab") as file:
-        done = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
-    if done.returncode:
-        stop(f"{step} failed: {reason(log)}. The whole log: {log}")
+        try:
+            done = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=env)
+        except OSError as error:
+            file.write(f"{command[0]}: {error}\n".encode())
+            return False
+    return done.returncode == 0
+
+
+def run(step, command, log, lock=LOCK, folder="."):
+    """Run one step; a failure is one line and the name of the log."""
+    if not succeeds(command, log):
+        stop(f"{step} failed: {reason(log, lock, folder).rstrip('.')}. The whole log: {log}")
+
+
+class Installer:
+    """uv, and from the first failure that pip may survive on, pip."""
+
+    def __init__(self, folder, log):
+        self.python = os.path.join(folder, "bin", "python")
+        self.uv = os.path.join(folder, "bin", "uv")
+        self.log = log
+        self.pip = [self.python, "-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--no-compile"]
+        self.env = uv_environment(self.python)
+        if not os.path.exists(self.uv):
+            locked = ["--only-binary", ":all:", "--require-hashes", "-r", INSTALLER]
+            if not succeeds(self.pip + locked, log):
+                self.give_up_uv(INSTALLER)
+        elif not succeeds([self.uv, "--version"], log):
+            self.give_up_uv(INSTALLER)
+
+    def give_up_uv(self, lock):
+        """Go on with pip, unless the reason is one that pip would meet as well, or a package that was changed."""
+        with open(self.log, encoding="utf-8", errors="replace") as file:
+            said = file.read().lower()
+        if any(word in said for word in UNSAFE + FULL) or (lock == INSTALLER and any(word in said for word in NETWORK)):
+            stop(f"installing {lock} failed: {reason(self.log, lock)}. The whole log: {self.log}")
+        self.uv = ""
+        print("loopbook: uv cannot install here; pip does, which takes about a minute")
+        sys.stdout.flush()
+        with open(self.log, "ab") as file:
+            file.write(b"\nloopbook: from here on pip\n")
+
+    def install(self, lock, *arguments):
+        """Install what a lock names (or, without network, the project itself)."""
+        if self.uv:
+            if succeeds([self.uv, "pip", "install", "--python", self.python, *arguments], self.log, self.env):
+                return
+            self.give_up_uv(lock)
+        run("installing " + lock, self.pip + list(arguments), self.log, lock)
 
 
 def make(folder):
+    """The whole environment, anew."""
     python = interpreter()
     log = folder + "-install.log"
     open(log, "w").close()
@@ -80,20 +142,35 @@ def make(folder):
             "this Python cannot make virtual environments; install its venv package "
             "(Debian and Ubuntu: apt install python3-venv) and run make again"
         )
-    print(f"loopbook: making the environment in {folder} (about a minute)")
+    print(f"loopbook: making the environment in {folder} (some ten seconds)")
     sys.stdout.flush()
-    run("making " + folder, [python, "-m", "venv", "--clear", folder], log)
-    inside = os.path.join(folder, "bin", "python")
-    pip = [inside, "-m", "pip", "install", "--disable-pip-version-check", "--no-input"]
-    run("installing environment.txt", [*pip, "--require-hashes", "-r", "environment.txt"], log)
-    run("installing loopbook", [*pip, "--no-deps", "--no-build-isolation", "--no-index", "--editable", "."], log)
+    run("making " + folder, [python, "-m", "venv", "--clear", folder], log, folder=folder)
+    installer = Installer(folder, log)
+    installer.install(LOCK, "--require-hashes", "-r", LOCK)
+    installer.install("loopbook", "--no-deps", "--no-build-isolation", "--no-index", "--editable", ".")
     os.replace(log, os.path.join(folder, "install.log"))
     with open(os.path.join(folder, "ready"), "w", encoding="utf-8") as file:
-        file.write("{}.{}\n".format(*version_of(inside)))
+        file.write("{}.{}\n".format(*version_of(installer.python)))
+        file.write(os.path.realpath(".") + "\n" + os.path.realpath(folder) + "\n")
+
+
+def add(folder, name):
+    """What one target needs beside environment.txt; what has no wheel is built with the locked setuptools."""
+    lock = os.path.join("locks", name + ".txt")
+    log = os.path.join(folder, f"install-{name}.log")
+    open(log, "w").close()
+    print(f"loopbook: installing {lock}")
+    sys.stdout.flush()
+    Installer(folder, log).install(lock, "--require-hashes", "--no-build-isolation", "-r", LOCK, "-r", lock)
+    open(os.path.join(folder, "ready-" + name), "w").close()
 
 
 if __name__ == "__main__":
+    where = sys.argv[1] if len(sys.argv) > 1 else ".venv"
     try:
-        make(sys.argv[1] if len(sys.argv) > 1 else ".venv")
+        if len(sys.argv) > 2:
+            add(where, sys.argv[2])
+        else:
+            make(where)
     except KeyboardInterrupt:
         stop("interrupted; run make again")

@@ -212,7 +212,7 @@ def fate(folder: Path, mutant: Mutant) -> Fate:
             caught = "check" if code == 1 else "ledger"
             return Fate(mutant, caught, caught == "ledger" or any(n in said for n in mutant.names))
         module = mutant.file.removeprefix("src/").removesuffix(".py").replace("/", ".")
-        tests = [t for t in importers(folder, module, "tests") if "/pipeline/" not in t][:12]
+        tests = [t for t in importers(folder, module, "tests") if "/notebook_reports/" not in t][:12]
         if tests:
             code, said = _run(folder, [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests])
             if code == 1 or "Error" in said:

@@ -10,8 +10,8 @@ from nbclient import NotebookClient
 from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
 from notebook_reports.ledger.harvest import records
 from notebook_reports.project.project import project_at
-from notebook_reports.run.run import run
 from notebook_reports.project.source import read_source
+from notebook_reports.run.run import run
 
 PROJECT = project_at(Path(__file__).parents[2])
 

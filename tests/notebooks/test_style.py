@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from clear_outputs import clear, unclean
 
 from notebook_reports.project.parameters import ParameterError, read_parameters
 from notebook_reports.project.source import Source, read_source
@@ -40,16 +41,9 @@ def written(text: str) -> list[str]:
 
 @rule
 def clean_in_git(source):
-    for number, cell in enumerate(source.content["cells"], 1):
-        if cell.get("outputs") or cell.get("execution_count") is not None:
-            yield f"cell {number} has outputs or a count: clear all outputs and save"
-        extra = set(cell["metadata"]) - {"tags", "jupyter"}
-        if extra:
-            yield f"cell {number} has the metadata {sorted(extra)}"
+    yield from unclean(source.content)
     if source.content["metadata"].get("kernelspec", {}).get("name") != "python3":
         yield "the kernel must be called python3"
-    if "version" in source.content["metadata"].get("language_info", {}):
-        yield "language_info names a version of Python"
 
 
 @rule
@@ -221,7 +215,17 @@ def test_each_rule_sees_its_fault(tmp_path, name, at, cell, message):
 
 def test_outputs_and_random_ids_are_seen(tmp_path):
     source = sample(tmp_path, *GOOD)
+    before = json.dumps(source.content)
     source.content["cells"][1]["execution_count"] = 3
     source.content["cells"][2]["id"] = "1a2b3c4d"
-    assert "cell 2 has outputs" in next(iter(RULES["clean_in_git"](source)))
+    source.content["cells"][0]["metadata"]["collapsed"] = True
+    source.content["metadata"]["language_info"] = {"version": "3.13"}
+    found = list(RULES["clean_in_git"](source))
+    wanted = ("cell 1 has the metadata", "cell 2 has outputs", "language_info names")
+    assert len(found) == len(wanted) and all(line.startswith(start) for line, start in zip(found, wanted, strict=True))
     assert "1a2b3c4d" in next(iter(RULES["stable_ids"](source)))
+    clear(source.content)
+    source.content["cells"][2]["id"] = "cell-3"
+    assert list(unclean(source.content)) == []
+    source.content["metadata"].pop("language_info")
+    assert json.dumps(source.content) == before, "nothing else is changed"

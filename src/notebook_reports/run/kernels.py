@@ -163,10 +163,12 @@ class Client(PapermillNotebookClient):
     def papermill_execute_cells(self) -> None:
         """Run the cells, then ask the kernel what it read; see `kernel_side.report`."""
         super().papermill_execute_cells()
-        ask = "__import__('json').dumps(__import__('notebook_reports.run.kernel_side').pipeline.kernel_side.report())"
+        ask = "__import__('json').dumps(__import__('sys').modules['notebook_reports.run.kernel_side'].report())"
         message = self.kc.execute("", silent=True, store_history=False, user_expressions={"report": ask})
         answer = self.wait_for_reply(message)["content"].get("user_expressions", {}).get("report", {})
-        if answer.get("status") == "ok":
+        if answer.get("status") == "error":  # without it a later build would take every file for unchanged
+            raise RuntimeError(f"the kernel cannot say what it read: {answer['ename']}: {answer['evalue']}")
+        if answer:
             self.depends = json.loads(ast.literal_eval(answer["data"]["text/plain"]))
 
 
