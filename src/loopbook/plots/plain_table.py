@@ -43,3 +43,17 @@ class PlainTable:
 
 def _text(cell: Any) -> str:
     return cell if isinstance(cell, str) else f"{cell:.4g}" if isinstance(cell, float) else str(cell)
+
+
+class ShownAsTable:
+    """What has a `table` prints and displays as it."""
+
+    def table(self) -> PlainTable:
+        """The same as rows with heads and units."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        return str(self.table())
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()

@@ -17,6 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
+
 BAND = 0.02
 RISE = (0.1, 0.9)
 SECTIONS, FINEST = 32, 1e-8
@@ -43,7 +45,7 @@ class NotSettled(StepMetricsError):
 
 
 @dataclass(frozen=True)
-class StepMetrics:
+class StepMetrics(ShownAsTable):
     """Measures of one step response.
 
     rise: s. settling: s, absolute time. overshoot, undershoot: % of the step, >= 0. peak: largest |y|, in the unit of
@@ -58,6 +60,12 @@ class StepMetrics:
     peak_time: float
     final: float
     convention: str
+
+    def table(self) -> PlainTable:
+        """Each measure with its unit."""
+        rows = [["rise [s]", self.rise], ["settling [s]", self.settling], ["overshoot [%]", self.overshoot]]
+        rows += [["undershoot [%]", self.undershoot], ["peak", self.peak], ["peak time [s]", self.peak_time]]
+        return PlainTable(["step response", self.convention], [*rows, ["final", self.final]])
 
 
 def _checked(t: np.ndarray, y: np.ndarray) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from loopbook.plots.plain_table import PlainTable
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.registry import named, rules
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
@@ -15,7 +15,7 @@ ACTIONS = ("PI", "PID", "P")
 
 
 @dataclass(frozen=True)
-class Tunings(Mapping[str, Tuning]):
+class Tunings(ShownAsTable, Mapping[str, Tuning]):
     """Settings by the rule's name. refused: by name, why a rule does not apply. Shows itself as a table."""
 
     found: Mapping[str, Tuning]
@@ -35,12 +35,6 @@ class Tunings(Mapping[str, Tuning]):
         rows = [[name, t.K, t.Ti, t.Td, t.b, "; ".join(t.notes)] for name, t in self.found.items()]
         notes = [f"{name} does not apply: {reason}" for name, reason in self.refused.items()]
         return PlainTable(["rule", "K", "Ti [s]", "Td [s]", "b", "mind"], rows, notes)
-
-    def __str__(self) -> str:
-        return str(self.table())
-
-    def _repr_html_(self) -> str:
-        return self.table()._repr_html_()
 
 
 def tune(known: Any, rule: str | Sequence[str] = "", action: str = "", *, all: bool = False, **options: Any) -> Any:
