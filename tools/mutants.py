@@ -81,7 +81,7 @@ def value_mutants(root: Path) -> list[Mutant]:
     mutants = []
     for path in sorted((root / "src/loopbook/documents").glob("*/printed/*.toml")):
         text = path.read_text(encoding="utf-8")
-        document = path.parent.name.replace("_", "-")
+        document = path.parents[1].name.replace("_", "-")
         entries = [m.start() for m in re.finditer(r'(?m)(?<![\w-])id\s*=\s*"', text)] + [len(text)]
         for start, end in pairwise(entries):
             id = re.match(r'id\s*=\s*"([^"]+)"', text[start:])[1]
@@ -116,7 +116,7 @@ def _sites(tree: ast.Module) -> Iterator[tuple[ast.AST, str, str]]:
 def constant_mutants(root: Path) -> list[Mutant]:
     """Mutants of the derivations: a rule's number, a minus sign, an operator."""
     mutants = []
-    for path in sorted((root / "src/derivations").glob("*.py")):
+    for path in sorted((root / "src/derivations").rglob("*.py")):
         text = path.read_text(encoding="utf-8")
         starts = [0]
         for line in text.splitlines(keepends=True):

@@ -7,6 +7,7 @@ from fnmatch import fnmatch
 from pathlib import Path
 
 import lock
+import mutants
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -89,3 +90,9 @@ def test_no_folder_of_tests_is_left_out(request):
     left_out = request.config.getini("norecursedirs")
     folders = {p.parent.relative_to(ROOT) for p in (ROOT / "tests").rglob("test_*.py")}
     assert [f for f in folders for name in f.parts if any(fnmatch(name, pattern) for pattern in left_out)] == []
+
+
+def test_the_mutants_find_what_to_alter():
+    values, constants = mutants.value_mutants(ROOT), mutants.constant_mutants(ROOT)
+    assert {m.what.split(",")[0] for m in values} == {"double-tank", "pid-article", "pid-report"}
+    assert len(values) > 500 and len(constants) > 500

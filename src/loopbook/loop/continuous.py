@@ -19,13 +19,16 @@ import numpy as np
 
 from loopbook.controllers.regulator import Regulator
 from loopbook.loop.margins import Margins, margins
-from loopbook.loop.stability import decay_rate, is_stable, unstable_roots
+from loopbook.loop.stability import BorderError, decay_rate, is_stable, unstable_roots
 from loopbook.loop.transfer import LoopError, LoopTransfer
+from loopbook.numerics.real_numbers import plain, real
 from loopbook.numerics.signals import HorizonError, Signal
 from loopbook.process.transfer_function import DelayedSum, Process
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
 
 SETTLED = 1e-9
+AT_REST = 1e-10
+PROLONGED = 8
 PATIENCE = np.log(1e11)
 
 
@@ -45,11 +48,18 @@ class Loop:
         object.__setattr__(self, "polynomials", Regulator.of(self.regulator))
 
     @cached_property
+    def _rows(self) -> tuple[tuple[float, ...], ...]:
+        """B, A, T, S, R, with no factor s that all of B, A or all of T, S, R share."""
+        c = self.polynomials
+        process = _without_common_integrators(self.process.num, self.process.den)
+        return *process, *_without_common_integrators(c.T, c.S, c.R)
+
+    @cached_property
     def transfer(self) -> LoopTransfer:
         """G(s) = S/R B/A exp(-Ls), from the loop's error around to the measurement."""
-        c = self.polynomials
-        num, den = np.polymul(c.S, self.process.num), np.polymul(c.R, self.process.den)
-        return LoopTransfer(tuple(num), tuple(den), self.process.delay)
+        B, A, _, S, R = self._rows
+        num, den = np.convolve(S, B), np.convolve(R, A)
+        return LoopTransfer(tuple(num.tolist()), tuple(den.tolist()), self.process.delay)
 
     def sensitivity(self, s: Any) -> Any:
         """1/(1 + G) at complex s."""
@@ -67,7 +77,7 @@ class Loop:
 
     @cached_property
     def is_stable(self) -> bool:
-        """Do all roots lie to the left? Also False on the border, and for roots that process and regulator cancel."""
+        """Do all roots lie to the left? False on the border too, and where a root there is cancelled."""
         return is_stable(self.transfer)
 
     @cached_property
@@ -85,7 +95,7 @@ class Loop:
 
     def with_gain(self, factor: float) -> "Loop":
         """The same regulator on a process with `factor` times the gain."""
-        return Loop(self.process * factor, self.regulator, self.path)
+        return Loop(self.process * real(factor, "factor"), self.regulator, self.path)
 
     def final_values(self, source: str) -> tuple[float, float]:
         """What (y, u) tend to after a unit step of one input, by the final value theorem.
@@ -95,8 +105,7 @@ class Loop:
         self._need_stable("final values")
         if source not in INPUTS:
             raise ResponseError(f"source = {source!r}; one of {', '.join(INPUTS)}")
-        c, p = self.polynomials, self.process
-        A, B, R, S, T = (row[-1] for row in (p.den, p.num, c.R, c.S, c.T))
+        B, A, T, S, R = (row[-1] for row in self._rows)
         below = R * A + S * B
         if source == "disturbance":
             w = self._path_times_den()
@@ -110,19 +119,19 @@ class Loop:
             raise ResponseError("a disturbance needs the path it takes to the output: Loop(process, regulator, path)")
         total = 0.0
         for term in self.path.terms if isinstance(self.path, DelayedSum) else (self.path,):
-            num, den = np.polymul(term.num, self.process.den), np.asarray(term.den)
+            num, den = np.convolve(term.num, self._rows[1]), np.asarray(term.den)
             while den[-1] == 0 and num[-1] == 0 and len(den) > 1:
                 num, den = num[:-1], den[:-1]
             total += num[-1] / den[-1]
         return float(total)
 
     def _need_stable(self, what: str) -> None:
-        if not self.is_stable:
-            try:
-                count = f"{self.unstable_roots} roots in the right half plane"
-            except LoopError:
-                count = "a root on the imaginary axis"
-            raise LoopError(f"the loop is not stable ({count}): it has no {what}")
+        try:
+            count = self.unstable_roots
+        except BorderError as border:
+            raise LoopError(f"{border}; it has no {what}") from None
+        if count:
+            raise LoopError(f"the loop is not stable ({count} roots in the right half plane): it has no {what}")
 
     def plot(self, horizon: float | None = None) -> Any:
         """y and u after a unit step of the reference, and of the load at half the horizon [s]: a matplotlib figure."""
@@ -151,10 +160,32 @@ class Loop:
         source: "reference", "load", "noise" or "disturbance". horizon [s]: up to when; without it, until the response
         has settled, which needs a stable loop. An unstable loop can be simulated over a given horizon.
         """
-        if horizon is None:
-            horizon = self.settling_horizon()
-        y, u = closed_loop_step(self.process, self.polynomials, source, float(horizon), self.path)
-        return StepResponse(self, source, float(horizon), y, u)
+        if horizon is not None:
+            until = float(plain(horizon))
+            return StepResponse(self, source, until, *self._answer(source, until))
+        until = self.settling_horizon()
+        final = self.final_values(source)
+        for _ in range(PROLONGED):
+            signals = self._answer(source, until)
+            if all(_at_rest(signal, end) for signal, end in zip(signals, final, strict=True)):
+                break
+            until *= 2  # modes of one speed die out later than each of them alone
+        return StepResponse(self, source, until, *signals)
+
+    def _answer(self, source: str, horizon: float) -> tuple[Signal, Signal]:
+        return closed_loop_step(self.process, self.polynomials, source, horizon, self.path)
+
+
+def _at_rest(signal: Signal, final: float) -> bool:
+    left = abs(float(signal(signal.end)) - final)
+    return left <= AT_REST * max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
+
+
+def _without_common_integrators(*rows: tuple[float, ...]) -> list[tuple[float, ...]]:
+    """Polynomials of one transfer function divided by the factors s that all of them share."""
+    while all(len(row) > 1 and row[-1] == 0 for row in rows if row != (0.0,)) and rows[-1] != (0.0,):
+        rows = tuple(row[:-1] if row != (0.0,) else row for row in rows)
+    return list(rows)
 
 
 @dataclass(frozen=True)
@@ -175,12 +206,6 @@ class StepResponse:
         """(y, u) for t to infinity. Raises LoopError for an unstable loop."""
         return self.loop.final_values(self.source)
 
-    @property
-    def breakpoints(self) -> np.ndarray:
-        """The multiples of the dead time up to the horizon, where corners and jumps may lie [s]."""
-        L = self.loop.process.delay
-        return L * np.arange(1, int(self.horizon / L) + 1) if L else np.zeros(0)
-
     def metrics(self) -> Any:
         """Rise time, settling time, overshoot and peak of y, convention `exact`: see `loopbook.response.step_metrics`.
 
@@ -188,8 +213,7 @@ class StepResponse:
         """
         from loopbook.response.step_metrics import exact
 
-        final = self.final[0]
-        return exact(self.y, final, min(self.horizon, self.y.end), breakpoints=self.breakpoints)
+        return exact(self.y, self.final[0], min(self.horizon, self.y.end))
 
     @cached_property
     def error(self) -> Signal:

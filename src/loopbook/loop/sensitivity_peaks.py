@@ -18,6 +18,7 @@ from loopbook.loop.unit_circle import CircleTransfer
 from loopbook.numerics import horner
 
 CERTAIN = 1e-6
+BESIDE = (1e-2, 1e-4, 1e-6)
 
 
 class Peak(NamedTuple):
@@ -159,12 +160,13 @@ class Circle(_Curve):
 
 
 def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float]:
-    """(distance, w) at the minimum near w in [a, b]."""
+    """(distance, w) at the minimum near w in [a, b]; beside w itself where [a, b] does not bracket one."""
     from scipy.optimize import brentq
 
-    low, high = curve.slope(a) if a > 0 else -1.0, curve.slope(b)
-    if np.isfinite(low) and np.isfinite(high) and low < 0 < high and a > 0:
-        w = brentq(curve.slope, a, b, xtol=1e-15 * b, rtol=1e-14)
+    for low, high in ((a, b), *((w * (1 - share), w * (1 + share)) for share in BESIDE)):
+        if low > 0 and np.isfinite(ends := (curve.slope(low), curve.slope(high))).all() and ends[0] < 0 < ends[1]:
+            w = brentq(curve.slope, low, high, xtol=1e-15 * high, rtol=1e-14)
+            break
     return float(curve.distance(np.array(w))), float(w)
 
 
@@ -205,8 +207,7 @@ def sensitivity_peak(loop: LoopTransfer) -> Peak:
     """
     if loop.gain_at_infinity == np.inf:
         raise LoopError("the loop transfer has more zeros than poles: its sensitivity peak is no measure; filter it")
-    distance, w = closest(_Axis(loop, inverse=False))
-    return _reciprocal(distance, w)
+    return _in_seconds(loop, inverse=False)
 
 
 def complementary_peak(loop: LoopTransfer) -> Peak:
@@ -217,8 +218,13 @@ def complementary_peak(loop: LoopTransfer) -> Peak:
     """
     if not any(loop.num):
         return Peak(0.0, 0.0)
-    distance, w = closest(_Axis(loop, inverse=True))
-    return _reciprocal(distance, w)
+    return _in_seconds(loop, inverse=True)
+
+
+def _in_seconds(loop: LoopTransfer, inverse: bool) -> Peak:
+    inside, time = loop.own_units
+    distance, w = closest(_Axis(inside, inverse))
+    return _reciprocal(distance, w / time)
 
 
 def sampled_peaks(transfer: CircleTransfer) -> tuple[Peak, Peak]:

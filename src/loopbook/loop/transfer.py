@@ -3,69 +3,77 @@
 |n/d| has no dead time in it, so gain crossovers are roots of the polynomial |d|^2 - |n|^2 in w^2. The phase is a sum
 over poles and zeros less w L, continuous in w; its slope is a rational function, so that the phase is monotone between
 the roots of a polynomial and each crossing of a level is bracketed. No crossover can hide between grid points.
+
+Frequencies are searched for in the loop's own unit of time (`LoopTransfer.own_units`), where nothing is far from one.
 """
 
+import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from loopbook.numerics import horner
+from loopbook.numerics import horner, units
+from loopbook.numerics.imaginary_axis import (
+    magnitude_squared,
+    positive_roots,
+    slope_of_phase,
+    snapped,
+    turned,
+    turned_on_axis,
+)
 from loopbook.process.transfer_function import ProcessError, coefficients
 
-ON_AXIS = 1e-9
+TOUCHES = 1e-7
+BESIDE = 1e-13
+SAME = 1e-9
 
 
 class LoopError(ValueError):
     """A question that the loop cannot answer: the message says why."""
 
 
-def _product_with_mirror(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Re(p(jw) conj(q(jw))) as a polynomial in x = w^2, descending: the even part of p(s) q(-s) at s^2 = -x."""
-    mirrored = np.asarray(q) * (-1.0) ** np.arange(len(q) - 1, -1, -1)
-    even = np.convolve(p, mirrored)[::-1][::2][::-1]
-    return even * (-1.0) ** np.arange(len(even) - 1, -1, -1)
-
-
-def _magnitude_squared(p: np.ndarray) -> np.ndarray:
-    """|p(jw)|^2, a polynomial in w^2."""
-    return _product_with_mirror(p, p)
-
-
-def _slope_of_phase(p: np.ndarray) -> np.ndarray:
-    """d/dw arg p(jw) times |p(jw)|^2, a polynomial in w^2: Re(p'(jw) conj(p(jw)))."""
-    return _product_with_mirror(np.polyder(p), p) if len(p) > 1 else np.zeros(1)
-
-
-def positive_roots(p: np.ndarray) -> np.ndarray:
-    """The w > 0 at which a real polynomial in x = w^2 vanishes, ascending: candidates at double roots included."""
-    x = np.roots(p)
-    x = x[(x.real > 0) & (abs(x.imag) <= 1e-6 * abs(x))].real
-    return np.sort(np.sqrt(x))
-
-
 @dataclass(frozen=True)
 class LoopTransfer:
     """n(s)/d(s) exp(-delay s). num, den: descending real coefficients; delay L [s] >= 0.
 
-    It may have more zeros than poles only where nothing but its values is asked.
+    It may have more zeros than poles only where nothing but its values is asked. hidden: how many factors s of num and
+    den were divided out: modes at s = 0 that the transfer function does not show and the loop cannot move.
     """
 
     num: tuple[float, ...]
     den: tuple[float, ...]
     delay: float = 0.0
+    hidden: int = field(init=False, default=0, repr=False)
 
     def __post_init__(self):
         num, den = coefficients(self.num, "num"), coefficients(self.den, "den")
         if den == (0.0,):
             raise ProcessError("den is zero: a transfer function needs a denominator")
-        while len(num) > 1 and len(den) > 1 and num[-1] == den[-1] == 0 and num != (0.0,):
-            num, den = num[:-1], den[:-1]
-        object.__setattr__(self, "num", num)
-        object.__setattr__(self, "den", den)
+        hidden = 0
+        while len(num) > 1 and len(den) > 1 and num[-1] == den[-1] == 0:
+            num, den, hidden = num[:-1], den[:-1], hidden + 1
+        self._set(num, den, self.delay, hidden)
+
+    def _set(self, num: tuple[float, ...], den: tuple[float, ...], delay: float, hidden: int) -> None:
+        for name, value in (("num", num), ("den", den), ("delay", delay), ("hidden", hidden)):
+            object.__setattr__(self, name, value)
+
+    @cached_property
+    def own_units(self) -> tuple["LoopTransfer", float]:
+        """The same loop with time counted in units of its own, and that unit [s]: a frequency there is w times it."""
+        time = units.characteristic_time(self.num, self.den, self.delay)
+        num, den = units.in_units(self.num, time), units.in_units(self.den, time)
+        scale = units.size(den)
+        if time == 1 and scale == 1:
+            return self, 1.0
+        inside = object.__new__(LoopTransfer)
+        inside._set(*(units.in_units(p, 1.0, scale) for p in (num, den)), self.delay / time, self.hidden)
+        inside.__dict__["own_units"] = (inside, 1.0)
+        return inside, time
 
     def __call__(self, s: Any) -> Any:
         s = np.asarray(s)
@@ -73,11 +81,13 @@ class LoopTransfer:
 
     @cached_property
     def zeros(self) -> np.ndarray:
-        return _snapped(np.roots(self.num))
+        inside, time = self.own_units
+        return snapped(np.roots(inside.num)) / time
 
     @cached_property
     def poles(self) -> np.ndarray:
-        return _snapped(np.roots(self.den))
+        inside, time = self.own_units
+        return snapped(np.roots(inside.den)) / time
 
     @property
     def gain_at_infinity(self) -> float:
@@ -87,8 +97,10 @@ class LoopTransfer:
 
     def magnitude(self, w: Any) -> Any:
         """|n(jw)/d(jw)|."""
-        s = 1j * np.asarray(w, dtype=float)
-        return abs(horner.value(self.num, s) / horner.value(self.den, s))
+        inside, time = self.own_units
+        s = 1j * time * np.asarray(w, dtype=float)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return abs(horner.value(inside.num, s) / horner.value(inside.den, s))
 
     @cached_property
     def phase_at_start(self) -> float:
@@ -102,25 +114,50 @@ class LoopTransfer:
         A pole on the imaginary axis counts as if it lay to the left: it takes pi off where w passes it.
         """
         w = np.asarray(w, dtype=float)
-        return self.phase_at_start + _turned(self.zeros, w) - _turned(self.poles, w) - self.delay * w
+        return self.phase_at_start + turned(self.zeros, w) - turned(self.poles, w) - self.delay * w
 
     @cached_property
     def gain_crossovers(self) -> np.ndarray:
-        """All w > 0 [rad/s] with |n/d| = 1, ascending: roots of a polynomial, polished."""
-        difference = np.polysub(_magnitude_squared(np.array(self.den)), _magnitude_squared(np.array(self.num)))
-        scale = np.abs(difference).max(initial=0.0)
-        if scale == 0:
+        """All w > 0 [rad/s] with |n/d| = 1, ascending: roots of a polynomial, polished.
+
+        The polynomial's roots tell where to look; between them the magnitude itself must change sides, and where it
+        does the crossover is bracketed. A touch without a crossing is kept where a root says so.
+        """
+        inside, time = self.own_units
+        difference = np.polysub(magnitude_squared(np.array(inside.den)), magnitude_squared(np.array(inside.num)))
+        if not difference.any():
             raise LoopError("the loop's magnitude is 1 at every frequency: it has no crossover frequencies")
+        candidates = positive_roots(difference)
+        if not candidates.size:
+            return candidates
+        between = [candidates[0] / 2, *np.sqrt(candidates[:-1] * candidates[1:]).tolist(), 2 * candidates[-1]]
+        loud = [inside._log_magnitude(w)[0] > 0 for w in between]
         found = []
-        for w in positive_roots(difference).tolist():
-            for _ in range(4):
-                level, slope = self._log_magnitude(w)
-                if slope == 0:
-                    break
-                w = w * math.exp(min(max(-level / slope, -1e-3), 1e-3))
-            if abs(self._log_magnitude(w)[0]) < 1e-7:
-                found.append(w)
-        return _distinct(found)
+        for w, (a, b), (before, after) in zip(candidates.tolist(), pairwise(between), pairwise(loud), strict=True):
+            found.extend(inside._crossing(w, a, b, before) if before != after else inside._touch(w))
+        return _distinct(found) / time
+
+    def _crossing(self, w: float, a: float, b: float, falls: bool) -> list[float]:
+        """The w in (a, b) at which the magnitude, above 1 at a if it falls, becomes 1: Newton's method, kept inside."""
+        for _ in range(80):
+            level, slope = self._log_magnitude(w)
+            if level == 0:
+                break
+            a, b = (w, b) if (level > 0) == falls else (a, w)
+            after = w * math.exp(max(min(-level / slope, 40.0), -40.0)) if slope else 0.0
+            after = after if a < after < b else math.sqrt(a * b)
+            if abs(after - w) <= 4e-16 * w:
+                return [after]
+            w = after
+        return [w]
+
+    def _touch(self, w: float) -> list[float]:
+        for _ in range(4):
+            level, slope = self._log_magnitude(w)
+            if slope == 0:
+                break
+            w = w * math.exp(min(max(-level / slope, -1e-3), 1e-3))
+        return [w] if abs(self._log_magnitude(w)[0]) < TOUCHES else []
 
     def _log_magnitude(self, w: float) -> tuple[float, float]:
         """log|n/d| at s = jw and its slope over log w; the slope is 0 where n or d vanishes."""
@@ -132,13 +169,14 @@ class LoopTransfer:
 
     @cached_property
     def monotone_phase(self) -> np.ndarray:
-        """The w > 0 that cut the axis into intervals of monotone phase: turning points, poles and zeros on the axis."""
-        n, d = np.array(self.num), np.array(self.den)
-        n2, d2 = _magnitude_squared(n), _magnitude_squared(d)
-        slope = np.polysub(np.polymul(_slope_of_phase(n), d2), np.polymul(_slope_of_phase(d), n2))
-        slope = np.polysub(slope, self.delay * np.polymul(n2, d2))
-        axis = [abs(r.imag) for r in (*self.zeros, *self.poles) if r.real == 0 and r.imag > 0]
-        return np.unique(np.concatenate([positive_roots(slope), axis]))
+        """The w > 0 [rad/s] that cut the axis into intervals of monotone phase: turning points, poles, zeros on it."""
+        inside, time = self.own_units
+        n, d = np.array(inside.num), np.array(inside.den)
+        n2, d2 = magnitude_squared(n), magnitude_squared(d)
+        slope = np.polysub(np.polymul(slope_of_phase(n), d2), np.polymul(slope_of_phase(d), n2))
+        slope = np.polysub(slope, inside.delay * np.polymul(n2, d2))
+        axis = [abs(r.imag) for r in (*inside.zeros, *inside.poles) if r.real == 0 and r.imag > 0]
+        return np.unique(np.concatenate([positive_roots(slope), axis])) / time
 
     def phase_crossovers(self, floor: float) -> np.ndarray:
         """All w > 0 [rad/s] where n/d exp(-Ls) is real and negative and its magnitude at least `floor`, ascending.
@@ -151,38 +189,62 @@ class LoopTransfer:
                 f"the loop gain tends to {self.gain_at_infinity:g}: infinitely many phase crossovers lie above the "
                 f"floor {floor:g}"
             )
-        last = self._last_frequency(floor)
-        cuts = self.monotone_phase
-        cuts = np.concatenate([[0.0], cuts[cuts < last], [last]])
+        inside, time = self.own_units
+        last = inside._last_frequency(floor)
+        cuts = inside.monotone_phase
+        cuts = [0.0, *cuts[cuts < last].tolist(), last]
         found: list[float] = []
         for a, b in pairwise(cuts):
-            found.extend(self._levels(a, b))
-        found = [w for w in found if self.magnitude(w) >= floor]
-        return _distinct(found)
+            found.extend(inside._levels(a, b))
+        found = [w for w in found if inside.magnitude(w) >= floor]
+        return _distinct(found) / time
 
     def _last_frequency(self, floor: float) -> float:
         """Beyond it |n/d| stays below the floor; without dead time, where all turning is over."""
-        difference = np.polysub(
-            floor**2 * _magnitude_squared(np.array(self.den)), _magnitude_squared(np.array(self.num))
-        )
+        difference = np.polysub(floor**2 * magnitude_squared(np.array(self.den)), magnitude_squared(np.array(self.num)))
         roots = np.append(positive_roots(difference), self.monotone_phase)
         radius = max((abs(r) for r in (*self.zeros, *self.poles)), default=1.0) or 1.0
         return 1.001 * max(float(roots.max(initial=0.0)), 1e3 * radius if not self.delay else 0.0, 1e-9 * radius)
+
+    @cached_property
+    def _beginning(self) -> float:
+        """A frequency below which nothing turns but what lies at s = 0."""
+        paces = [abs(r) for r in (*self.zeros, *self.poles) if r] + ([1 / self.delay] if self.delay else [])
+        return 1e-14 * min(paces, default=1.0)
 
     def _levels(self, a: float, b: float) -> list[float]:
         """The w in (a, b), where the phase is monotone, at which it is an odd multiple of pi."""
         from scipy.optimize import brentq
 
-        inner = a + (b - a) * 1e-13 if a else min(b, 1.0) * 1e-14
-        ends = sorted([float(self.phase(inner)), float(self.phase(b * (1 - 1e-13)))])
-        first, last = np.ceil((ends[0] / np.pi - 1) / 2 - 1e-12), np.floor((ends[1] / np.pi - 1) / 2 + 1e-12)
+        low, high = (a * (1 + BESIDE) if a else min(self._beginning, b / 2)), b * (1 - BESIDE)
+        if not low < high:
+            return []
+        start, end = self._phase_at(low), self._phase_at(high)
+        first, last = sorted(((start / np.pi - 1) / 2, (end / np.pi - 1) / 2))
         found = []
-        for k in np.arange(first, last + 1):
-            level = (2 * k + 1) * np.pi
-            low, high = self.phase(inner) - level, self.phase(b * (1 - 1e-13)) - level
-            if low * high < 0:
-                found.append(brentq(lambda w, c=level: float(self.phase(w)) - c, inner, b * (1 - 1e-13), xtol=1e-300))
+        for k in range(math.ceil(first), math.floor(last) + 1):
+            level = (2 * k + 1) * math.pi
+            if (start - level) * (end - level) < 0:
+                gap = lambda x, c=level: self._phase_at(math.exp(x)) - c  # noqa: E731
+                found.append(math.exp(brentq(gap, math.log(low), math.log(high), xtol=1e-14, rtol=1e-14)))
         return [self._polished(w) for w in found]
+
+    @cached_property
+    def _turning(self) -> list[tuple[float, float, float, float]]:
+        """Each root that is not on the axis as (its real part's size, imaginary part, sign, angle at the start)."""
+        signed = [(r, 1.0) for r in self.zeros.tolist()] + [(r, -1.0) for r in self.poles.tolist()]
+        return [
+            (abs(r.real), r.imag, -sign * math.copysign(1.0, r.real), math.atan2(-r.imag, abs(r.real)))
+            for r, sign in signed
+            if r.real
+        ]
+
+    def _phase_at(self, w: float) -> float:
+        """`phase` for one w, in Python's numbers: root finding asks for one at a time."""
+        on_axis = sum(turned_on_axis(r.imag, w) for r in self.zeros.tolist() if not r.real)
+        on_axis -= sum(turned_on_axis(r.imag, w) for r in self.poles.tolist() if not r.real)
+        aside = sum(sign * (math.atan2(w - im, re) - start) for re, im, sign, start in self._turning)
+        return self.phase_at_start + on_axis + aside - self.delay * w
 
     def _polished(self, w: float) -> float:
         """A last Newton step with the polynomials themselves, which are more exact than their roots."""
@@ -190,26 +252,10 @@ class LoopTransfer:
         (n, dn), (d, dd) = horner.with_slope(self.num, s), horner.with_slope(self.den, s)
         if not (n and d):
             return w
-        wrapped = np.angle(-n / d * np.exp(-self.delay * s))
+        wrapped = cmath.phase(-n / d * cmath.exp(-self.delay * s))
         slope = (1j * (dn / n - dd / d)).imag - self.delay
         change = wrapped / slope if slope else 0.0
         return w - change if abs(change) < 1e-6 * w else w
-
-
-def _snapped(roots: np.ndarray) -> np.ndarray:
-    """Roots within rounding of the imaginary axis are set on it."""
-    roots = np.asarray(roots, dtype=complex)
-    near = abs(roots.real) <= ON_AXIS * abs(roots)
-    return np.where(near, 1j * roots.imag, roots)
-
-
-def _turned(roots: np.ndarray, w: np.ndarray) -> np.ndarray:
-    """The change of arg(s - root), summed over the roots, from s = 0+ to s = jw; roots on the axis count as left."""
-    re, im, w = roots.real, roots.imag, np.asarray(w)[..., None]
-    # measured from the direction away from the root's side, where arg never jumps
-    side = -np.sign(re) * (np.arctan2(w - im, abs(re)) - np.arctan2(-im, abs(re)))
-    on_axis = np.where(w >= im, np.pi / 2, -np.pi / 2) + np.sign(im) * np.pi / 2
-    return np.where(re == 0, on_axis, side).sum(axis=-1)
 
 
 def _last_nonzero(p: tuple[float, ...]) -> float:
@@ -218,4 +264,4 @@ def _last_nonzero(p: tuple[float, ...]) -> float:
 
 def _distinct(found: list[float]) -> np.ndarray:
     values = np.sort(np.array(found, dtype=float))
-    return values[np.append(True, np.diff(values) > 1e-9 * values[1:])] if values.size else values
+    return values[np.append(True, np.diff(values) > SAME * values[1:])] if values.size else values

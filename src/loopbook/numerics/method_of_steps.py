@@ -1,139 +1,38 @@
 """Linear differential equations with one delayed feedback, solved to rounding by the method of steps.
 
-    x'(t) = A x(t) + b v(t) + e             x(0) = 0
-    o(t)  = C x(t) + D v(t) + f             outputs; output number 0 is fed back:
-    v(t)  = o_0(t - L),  0 for t < L        (for L = 0 the loop is closed algebraically)
-
-e and f are the constant inputs of a unit step at t = 0. Between two multiples of L the delayed signal is known, so each
-segment [kL, (k+1)L) is an ordinary linear equation. It is solved there by polynomials of degree 24 through the Radau
-points of a few cells, an L-stable collocation whose error falls faster than any power of the cell length. The cells
-are the same in every segment, hence the delayed values are those stored one segment earlier: nothing is interpolated.
-A cell whose last Legendre coefficients are not yet at rounding level is halved, and the solution repeated: the result
-does not depend on any grid that a caller chooses.
+Between two multiples of the dead time L the delayed signal is known, so each segment [kL, (k+1)L) is an ordinary linear
+equation (`numerics.collocation`). It is solved there through the Radau points of a few cells. The cells are the same in
+every segment, hence the delayed values are those stored one segment earlier: nothing is interpolated. A cell whose last
+Legendre coefficients are not yet at rounding level is halved, and the solution repeated: the result does not depend on
+any grid that a caller chooses. Where the horizon holds many dead times, the rest is done in cells longer than one
+(`numerics.long_cells`).
 """
-
-from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
+from loopbook.numerics.collocation import (
+    DEGREE,
+    DelayEquation,
+    ResponseError,
+    cell_operator,
+    graded_mesh,
+    outputs,
+    radau,
+)
+from loopbook.numerics.long_cells import RESOLVED, ROUNDED, continued, smooth_from
 from loopbook.numerics.signals import Signal
-from loopbook.numerics.state_space import balancing
 
-DEGREE = 24
-RESOLVED = 3e-14
-ROUNDED = 1e-9
-REACH = 8.0
+MANY = 64
 MOST_VALUES = 12_000_000
 
-
-class ResponseError(ValueError):
-    """A response that cannot be computed as asked: the message says why and what can be asked instead."""
+__all__ = ["DelayEquation", "ResponseError", "solve"]
 
 
-@dataclass(frozen=True)
-class DelayEquation:
-    """The matrices of the module's equation: A (n, n), b, e (n,), C (m, n), D, f (m,), delay L [s] >= 0."""
-
-    A: np.ndarray
-    b: np.ndarray
-    e: np.ndarray
-    C: np.ndarray
-    D: np.ndarray
-    f: np.ndarray
-    delay: float
-
-    def balanced(self) -> "DelayEquation":
-        """The same equation in units of x and v in which the loop's matrix has rows and columns of one size."""
-        n = len(self.A)
-        if not n:
-            return self
-        loop = np.block([[self.A, self.b[:, None]], [self.C[:1], self.D[:1, None]]])
-        scale = balancing(loop)
-        x, v = scale[:n], scale[n]
-        out = np.ones(len(self.C))
-        out[0] = 1 / v
-        return DelayEquation(
-            self.A * x / x[:, None],
-            self.b * v / x,
-            self.e / x,
-            self.C * x * out[:, None],
-            self.D * v * out,
-            self.f * out,
-            self.delay,
-        )
-
-    def closed(self) -> "DelayEquation":
-        """The same equation with v eliminated, for L = 0. Raises ResponseError for an algebraic loop."""
-        gap = 1 - self.D[0]
-        if abs(gap) < 1e-12:
-            raise ResponseError(
-                "algebraic loop: process and regulator both act at once and their gains at infinite frequency multiply "
-                "to -1, so that the loop has no solution; give one of them a pole or a dead time"
-            )
-        row, constant = self.C[0] / gap, self.f[0] / gap
-        zero = np.zeros_like
-        return DelayEquation(
-            self.A + np.outer(self.b, row),
-            zero(self.b),
-            self.e + self.b * constant,
-            self.C + np.outer(self.D, row),
-            zero(self.D),
-            self.f + self.D * constant,
-            0.0,
-        )
-
-
-@cache
-def radau() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Radau points in (-1, 1], their Butcher matrix for [0, 1], and values at -1 and the points -> coefficients."""
-    from numpy.polynomial import legendre
-    from scipy.special import roots_jacobi
-
-    nodes = np.append(roots_jacobi(DEGREE - 1, 1, 0)[0], 1.0)
-    powers = legendre.legvander(nodes, DEGREE)
-    start = legendre.legvander(np.array([-1.0]), DEGREE)
-    integrals = [powers[:, 1] - start[:, 1]]
-    for k in range(1, DEGREE):
-        integrals.append((powers[:, k + 1] - powers[:, k - 1]) / (2 * k + 1))
-    integrals[0] = nodes + 1
-    butcher = np.linalg.solve(powers[:, :DEGREE].T, np.array(integrals)).T / 2
-    return nodes, butcher, np.linalg.inv(np.vstack([start, powers]))
-
-
-def graded_mesh(A: np.ndarray, length: float) -> np.ndarray:
-    """Cells on [0, length]: as long as the fastest mode that has not yet died out allows."""
-    modes = np.linalg.eigvals(A) if len(A) else np.zeros(0)
-    modes = modes[abs(modes) > 0]
-    edges = [0.0]
-    while edges[-1] < length:
-        alive = abs(modes[-modes.real * edges[-1] < 40])
-        step = REACH / alive.max() if alive.size else length
-        if len(edges) > 200_000:
-            raise ResponseError(f"a horizon of {length:g} s holds too many periods of the fastest mode: shorten it")
-        edges.append(edges[-1] + step)
-    edges[-1] = length
-    return np.array(edges)
-
-
-def cell_operator(system: DelayEquation, length: float) -> np.ndarray:
-    """X at the nodes as a linear map of (x at the start, v at the nodes, 1): shape (p, n, n + p + 1)."""
-    _, a, _ = radau()
-    n, p = len(system.A), DEGREE
-    integral = length * a
-    matrix = np.eye(p * n) - (integral[:, None, :, None] * system.A[:, None, :]).reshape(p * n, p * n)
-    right = np.empty((p, n, n + p + 1))
-    right[:, :, :n] = np.eye(n)
-    right[:, :, n:-1] = integral[:, None, :] * system.b[:, None]
-    right[:, :, -1] = integral.sum(axis=1)[:, None] * system.e
-    return np.linalg.solve(matrix, right.reshape(p * n, n + p + 1)).reshape(p, n, n + p + 1)
-
-
-def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> np.ndarray:
-    """Values of all outputs at every start and node, cell after cell: shape (segments, cells, m, p + 1)."""
+def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> tuple[np.ndarray, np.ndarray]:
+    """Values of all outputs at every start and node: shape (segments, cells, m, p + 1); and x at the end."""
     n, size = len(system.A), len(system.C) * (DEGREE + 1)
     keys = [float(f"{length:.13g}") for length in np.diff(mesh)]
-    maps = {key: _outputs(system, cell_operator(system, key)) for key in set(keys)}
+    maps = {key: outputs(system, cell_operator(system, key)) for key in set(keys)}
     along = [maps[key] for key in keys]
     rows = np.empty((segments, len(keys), size + n))
     known = np.zeros(n + DEGREE + 2)
@@ -145,47 +44,54 @@ def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> np.ndarray
                 v[:] = rows[k - 1, i, : DEGREE + 1]
             np.dot(operator, known, out=rows[k, i])
             before = rows[k, i, size:]
-    return rows[:, :, :size].reshape(segments, len(keys), len(system.C), DEGREE + 1)
+    return rows[:, :, :size].reshape(segments, len(keys), len(system.C), DEGREE + 1), before
 
 
-def _outputs(system: DelayEquation, G: np.ndarray) -> np.ndarray:
-    """Each output at the start and the nodes of a cell, then x at its end, as a map of x, of v there, and of 1."""
-    n, p = len(system.A), DEGREE
-    states = np.zeros((p + 1, n, n + p + 2))
-    states[0, :, :n] = np.eye(n)
-    states[1:, :, :n], states[1:, :, n + 1 : n + 1 + p], states[1:, :, -1] = G[:, :, :n], G[:, :, n:-1], G[:, :, -1]
-    outputs = (system.C @ states).transpose(1, 0, 2)
-    for q in range(p + 1):
-        outputs[:, q, n + q] += system.D
-    outputs[:, :, -1] += system.f[:, None]
-    return np.vstack([outputs.reshape(-1, n + p + 2), states[-1]])
-
-
-def solve(system: DelayEquation, horizon: float) -> list[Signal]:
+def solve(system: DelayEquation, horizon: float, unit: float = 1.0) -> list[Signal]:
     """The outputs on [0, horizon], one `Signal` each, accurate to rounding.
 
-    horizon [s] > 0. Raises ResponseError for an algebraic loop, a horizon that is not positive, one that holds too
-    many dead times to be stored, and a response that overflows.
+    horizon > 0, in units of `unit` [s], which only messages name. Raises ResponseError for an algebraic loop, a horizon
+    that is not positive, one that holds too many dead times to be stored, and a response that overflows.
     """
     if not (np.isfinite(horizon) and horizon > 0):
-        raise ResponseError(f"horizon = {horizon!r} s: a positive number of seconds is expected")
+        raise ResponseError(f"horizon = {horizon * unit!r} s: a positive number of seconds is expected")
     system = system.balanced()
     if not system.delay:
         system = system.closed()
     segments = max(1, int(np.ceil(horizon / system.delay * (1 - 1e-12)))) if system.delay else 1
-    length = system.delay or horizon
-    mesh = graded_mesh(system.A, length)
+    smooth = smooth_from(system) if segments > MANY else None
+    short = segments if smooth is None else min(segments, smooth)
+    mesh, coefficients, x, scale = _short_cells(system, horizon, short, unit)
+    lengths, coefficients = np.tile(np.diff(mesh), short), coefficients.reshape(-1, *coefficients.shape[2:])
+    if short == segments:
+        starts = np.arange(segments)[:, None] * system.delay + mesh[:-1]
+        edges = np.append(starts.ravel(), segments * system.delay if system.delay else horizon)
+    else:
+        span = horizon - short * system.delay
+        lengths, coefficients = continued(system, lengths, coefficients, x, scale, span)
+        edges = np.append(0.0, np.cumsum(lengths))
+    return [Signal(edges, coefficients[:, j]) for j in range(len(system.C))]
+
+
+def _short_cells(
+    system: DelayEquation, horizon: float, segments: int, unit: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The mesh of each dead time, coefficients (segments, cells, m, p + 1), x at the end, the size of each output."""
+    mesh = graded_mesh(system.A, system.delay or horizon)
     best, stalled = np.inf, 0
     for _ in range(30):
         if segments * (len(mesh) - 1) * (DEGREE + 1) * len(system.C) > MOST_VALUES:
             raise ResponseError(
-                f"the horizon {horizon:g} s holds {segments} dead times of {system.delay:g} s in {len(mesh) - 1} cells "
-                "each, more than can be stored: shorten the horizon, or leave out a dead time as short as that"
+                f"the horizon {horizon * unit:g} s holds {segments} dead times of {system.delay * unit:g} s in "
+                f"{len(mesh) - 1} cells each, more than can be stored: shorten the horizon, or leave out a dead time "
+                "as short as that"
             )
         with np.errstate(over="ignore", invalid="ignore"):
-            values = _march(system, mesh, segments)
+            values, x = _march(system, mesh, segments)
         if not np.isfinite(values).all():
-            raise ResponseError(f"the response grows beyond all numbers before t = {horizon:g} s: the loop is unstable")
+            raise ResponseError(
+                f"the response grows beyond all numbers before t = {horizon * unit:g} s: the loop is unstable"
+            )
         coefficients = values @ radau()[2].T
         scale = np.abs(values).max(axis=(0, 1, 3))
         tail = np.abs(coefficients[..., -2:]).max(axis=(0, 3)) / np.where(scale > 0, scale, 1.0)
@@ -193,13 +99,9 @@ def solve(system: DelayEquation, horizon: float) -> list[Signal]:
         stalled = stalled + 1 if tail.max() > best / 4 else 0
         best = min(best, tail.max())
         if not rough.any() or (stalled == 2 and best < ROUNDED):
-            break
+            return mesh, coefficients, x.copy(), scale
         if stalled == 5:
             raise ResponseError(f"rounding limits the response to a relative error of {best:.1e}: scale the problem")
         halves = (mesh[:-1] + mesh[1:])[rough] / 2
         mesh = np.sort(np.append(mesh, halves))
-    else:
-        raise ResponseError(f"the response could not be resolved: relative error about {best:.1e}")
-    starts = np.arange(segments)[:, None] * system.delay + mesh[:-1]
-    edges = np.append(starts.ravel(), segments * system.delay if system.delay else horizon)
-    return [Signal(edges, coefficients[:, :, j].reshape(-1, DEGREE + 1)) for j in range(len(system.C))]
+    raise ResponseError(f"the response could not be resolved: relative error about {best:.1e}")

@@ -9,11 +9,16 @@ The signal is zero before its first cell (the loop is at rest) and unknown after
 """
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
+
+from loopbook.numerics.legendre_series import keeps_sign, nodes_of, sampling, series
+
+QUIET, STILL, ROUNDING = 1e-13, 1e-11, 2e-15  # parts of a signal's largest value
+DENSITIES = (2, 16, 128)  # nodes per coefficient of a cell
 
 
 class HorizonError(ValueError):
@@ -60,7 +65,7 @@ class Signal:
             raise HorizonError(f"t = {t.max():g} s lies beyond the horizon, {self.end:g} s: ask for a longer one")
         cell = np.clip(np.searchsorted(self.edges, t, side="right") - 1, 0, len(self.coefficients) - 1)
         x = 2 * (t - self.edges[cell]) / self.lengths[cell] - 1
-        return np.where(t < self.start, 0.0, _sum(np.moveaxis(self.coefficients[cell], -1, 0), x))
+        return np.where(t < self.start, 0.0, series(np.moveaxis(self.coefficients[cell], -1, 0), x))
 
     def limit_before(self, time: float) -> float:
         """The value just before `time`: the left-hand side of a jump."""
@@ -90,10 +95,10 @@ class Signal:
         rows = np.where(known[:, None], self.coefficients[cell], 0.0)
         cut = np.flatnonzero(known & ((edges[:-1] != self.edges[cell]) | (edges[1:] != self.edges[cell + 1])))
         if cut.size:
-            nodes, to_coefficients = _sampling(self.coefficients.shape[1])
+            nodes, to_coefficients = sampling(self.coefficients.shape[1])
             t = middle[cut, None] + np.diff(edges)[cut, None] / 2 * nodes
             x = 2 * (t - self.edges[cell[cut]][:, None]) / self.lengths[cell[cut]][:, None] - 1
-            rows[cut] = _sum(rows[cut].T[:, :, None], x) @ to_coefficients.T
+            rows[cut] = series(rows[cut].T[:, :, None], x) @ to_coefficients.T
         return Signal(edges, rows)
 
     def __add__(self, other: "Signal | float") -> "Signal":
@@ -144,32 +149,39 @@ class Signal:
         In all other cells there is none, or nothing but rounding. Between two nodes the value departs from that at the
         nearer one by at most sum |c_k| k(k+1)/2, the largest slope, times the distance; and the slope from its own
         value there by sum |c_k| (k-1)k(k+1)(k+2)/8, the largest second derivative. So each gap between nodes is proved
-        free of zeros, or monotone, or neither.
+        free of zeros, or monotone, or neither; cells with a gap of neither kind are looked at with more nodes.
         """
         rows = self.coefficients
         size = np.abs(rows).sum(axis=1)
-        loud = np.flatnonzero((np.abs(rows[:, 0]) <= size - np.abs(rows[:, 0])) & (size > 1e-13 * size.max(initial=0)))
-        nodes, to_values, to_slopes, steepest, sharpest = _nodes(rows.shape[1])
-        reach = (nodes[1] - nodes[0]) / 2
-        values, slopes = rows[loud] @ to_values, rows[loud] @ to_slopes
-        free = _keeps_sign(values, np.abs(rows[loud]) @ steepest * reach)
-        monotone = _keeps_sign(slopes, np.abs(rows[loud]) @ sharpest * reach)
-        proved = (free | monotone).all(axis=1)
-        at, gap = np.nonzero(proved[:, None] & ~free & (values[:, :-1] * values[:, 1:] <= 0))
-        return (loud[at], nodes[gap], nodes[gap + 1]), loud[~proved]
+        loud = np.flatnonzero((np.abs(rows[:, 0]) <= size - np.abs(rows[:, 0])) & (size > QUIET * size.max(initial=0)))
+        found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+        for density in DENSITIES:
+            if not loud.size:
+                break
+            nodes, to_values, to_slopes, steepest, sharpest = nodes_of(rows.shape[1], density)
+            reach = (nodes[1] - nodes[0]) / 2
+            values, slopes = rows[loud] @ to_values, rows[loud] @ to_slopes
+            free = keeps_sign(values, np.abs(rows[loud]) @ steepest * reach)
+            monotone = keeps_sign(slopes, np.abs(rows[loud]) @ sharpest * reach)
+            proved = (free | monotone).all(axis=1)
+            at, gap = np.nonzero(proved[:, None] & ~free & (values[:, :-1] * values[:, 1:] <= 0))
+            found.append((loud[at], nodes[gap], nodes[gap + 1]))
+            loud = loud[~proved]
+        brackets = [np.concatenate(parts) for parts in zip(*found, strict=True)] if found else [np.zeros(0, int)] * 3
+        return (brackets[0], brackets[1], brackets[2]), loud
 
     def _bracketed(self, cell: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """The zeros in the brackets, as x in [-1, 1], by Newton's method kept inside them."""
         c = np.moveaxis(self.coefficients[cell], -1, 0)
         slopes = legendre.legder(c)
-        rising = _sum(c, high) > _sum(c, low)
+        rising = series(c, high) > series(c, low)
         x = (low + high) / 2
         for _ in range(60):
-            value = _sum(c, x)
+            value = series(c, x)
             above = (value > 0) == rising
             low, high = np.where(above, low, x), np.where(above, x, high)
             with np.errstate(divide="ignore", invalid="ignore"):
-                newton = x - value / _sum(slopes, x)
+                newton = x - value / series(slopes, x)
             after = np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
             moved, x = np.abs(after - x).max(initial=0.0), after
             if moved < 1e-15:
@@ -203,11 +215,18 @@ class Signal:
     def extremes(self) -> tuple[np.ndarray, np.ndarray]:
         """Times and values of all candidates for a maximum or minimum: turning points and both sides of every edge.
 
-        Within a cell where the signal moves by less than 1e-11 of its largest value, the edges stand for all of it.
+        Within a cell where the signal moves by less than 1e-11 of its largest value, the edges stand for all of it;
+        coefficients that are rounding of that value turn nothing.
         """
-        moves = np.abs(self.coefficients[:, 1:]).sum(axis=1)
-        lively = moves > 1e-11 * np.abs(self.coefficients).sum(axis=1).max(initial=0.0)
-        turning = Signal(self.edges, self.derivative().coefficients * lively[:, None]).roots()
+        return self._extremes
+
+    @cached_property
+    def _extremes(self) -> tuple[np.ndarray, np.ndarray]:
+        size = np.abs(self.coefficients)
+        largest = size.sum(axis=1).max(initial=0.0)
+        lively = size[:, 1:].sum(axis=1) > STILL * largest
+        told = np.where((size > ROUNDING * largest) & lively[:, None], self.coefficients, 0.0)
+        turning = Signal(self.edges, told).derivative().roots()
         times = np.concatenate([turning, self.edges])
         order = np.argsort(times, kind="stable")
         t, values = times[order], self(times)[order]
@@ -246,23 +265,6 @@ class Signal:
         return float(np.abs(pieces.coefficients[:, 0]) @ pieces.lengths)
 
 
-def _sum(c: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """A Legendre series with coefficients of its own for every x; c: shape (p+1, ...).
-
-    A single x is summed in Python's numbers, which are faster than arrays of one.
-    """
-    if x.size == 1 and c.size == len(c):
-        return np.full(x.shape, _clenshaw(c.ravel().tolist(), x.item()))
-    return _clenshaw(c, x)
-
-
-def _clenshaw(c: Any, x: Any) -> Any:
-    after = last = 0 * x
-    for k in range(len(c) - 1, 0, -1):
-        after, last = c[k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * last, after
-    return c[0] + x * after - 0.5 * last
-
-
 def _first(t: np.ndarray, v: np.ndarray, measure: np.ndarray) -> tuple[float, float]:
     top = np.flatnonzero(measure >= measure.max() - 1e-13 * np.abs(v).max())
     i = top[np.argmin(t[top])]
@@ -272,25 +274,3 @@ def _first(t: np.ndarray, v: np.ndarray, measure: np.ndarray) -> tuple[float, fl
 def _padded(rows: np.ndarray, other: Signal) -> np.ndarray:
     missing = other.coefficients.shape[1] - rows.shape[1]
     return np.pad(rows, ((0, 0), (0, max(missing, 0))))
-
-
-def _keeps_sign(values: np.ndarray, departure: np.ndarray) -> np.ndarray:
-    """Between which neighbouring nodes a function keeps its sign that departs so far at most from the nearer value."""
-    same = values[:, :-1] * values[:, 1:] > 0
-    return same & (np.minimum(np.abs(values[:, :-1]), np.abs(values[:, 1:])) > departure[:, None])
-
-
-@cache
-def _nodes(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Equally spaced nodes, matrices from Legendre coefficients to values and slopes there, and max |P_k'|, |P_k''|."""
-    nodes, k = np.linspace(-1, 1, 2 * count + 1), np.arange(count)
-    values = legendre.legvander(nodes, count - 1)
-    slopes = values[:, : max(count - 1, 1)] @ legendre.legder(np.eye(count)) if count > 1 else np.zeros_like(values)
-    return nodes, values.T, slopes.T, k * (k + 1) / 2, (k - 1) * k * (k + 1) * (k + 2) / 8
-
-
-@cache
-def _sampling(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Gauss nodes and the matrix from values there to Legendre coefficients, exact below degree `count`."""
-    nodes = legendre.leggauss(count)[0]
-    return nodes, np.linalg.inv(legendre.legvander(nodes, count - 1))

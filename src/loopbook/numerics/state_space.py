@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from loopbook.numerics.units import octaves
+
 
 @dataclass(frozen=True)
 class StateSpace:
@@ -32,6 +34,16 @@ def balancing(matrix: np.ndarray) -> np.ndarray:
     return matrix_balance(kept, permute=False, separate=True)[1][0]
 
 
+def _as_if_no_integrator(a: np.ndarray) -> np.ndarray:
+    """The denominator with its poles at zero moved to where its slowest other pole lies: what tells how to scale them.
+
+    An integrator's own row is zero, which balances with anything.
+    """
+    slowest = 2.0 ** min(octaves(a.tolist()), default=0.0)
+    last = int(np.flatnonzero(a)[-1])
+    return np.append(a[: last + 1], a[last] * slowest ** np.arange(1, len(a) - last))
+
+
 def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> StateSpace:
     """The outputs of several proper transfer functions nums[j]/den added up, with n = degree of den states.
 
@@ -49,6 +61,6 @@ def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> Stat
     A[:, :1] -= a[1:, None] if n else 0.0
     C = np.eye(1, n)
     if n:
-        scale = balancing(A)
+        scale = balancing(np.hstack([-_as_if_no_integrator(a)[1:, None], A[:, 1:]]))
         A, B, C = A * scale / scale[:, None], B / scale[:, None], C * scale
     return StateSpace(A, B, C, D)

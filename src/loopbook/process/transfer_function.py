@@ -7,7 +7,6 @@ function that writes a Padé approximation is `Process.to_control`, on request.
 """
 
 import math
-import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics import horner, polynomial_text
+from loopbook.numerics.real_numbers import plain, positive, real
 
 
 class ProcessError(ValueError):
@@ -28,18 +28,26 @@ def coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
     >>> coefficients([0, 2, 1], "num")
     (2.0, 1.0)
     """
-    row = np.asarray(values).tolist()
-    row = row if isinstance(row, list) else [row]
-    if not row or isinstance(row[0], list):
-        raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
-    if not all(isinstance(c, numbers.Real) for c in row):
-        raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers")
-    row = [float(c) for c in row]
-    if not all(map(math.isfinite, row)):
+    if not (type(values) is tuple and values and all(type(c) is float for c in values)):
+        values = _row(values, name)
+    if not all(map(math.isfinite, values)):
         raise ProcessError(f"{name} = {values!r}: the coefficients must be finite")
+    row = list(values)
     while len(row) > 1 and not row[0]:
         del row[0]
     return tuple(row) if row != [0.0] else (0.0,)
+
+
+def _row(values: Any, name: str) -> list[float]:
+    """A row of floats from whatever holds one."""
+    array = np.atleast_1d(np.asarray(values, dtype=object))
+    row = list(array)
+    if not row or array.ndim > 1 or isinstance(row[0], list | tuple | np.ndarray):
+        raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
+    try:
+        return [float(plain(c)) for c in row]
+    except (TypeError, OverflowError):
+        raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers") from None
 
 
 @dataclass(frozen=True)
@@ -71,11 +79,10 @@ class Process:
                 f"num has degree {len(self.num) - 1}, den degree {len(self.den) - 1}: an improper transfer function "
                 "differentiates its input and is no process; add poles or lower the degree of num"
             )
-        if not isinstance(self.delay, numbers.Real) or not math.isfinite(self.delay):
-            raise ProcessError(f"delay = {self.delay!r}: a finite number of seconds is expected")
-        if self.delay < 0:
-            raise ProcessError(f"delay = {self.delay!r} s is negative: the output would precede its cause")
-        object.__setattr__(self, "delay", float(self.delay))
+        delay = real(self.delay, "delay", ProcessError, " s")
+        if delay < 0:
+            raise ProcessError(f"delay = {delay!r} s is negative: the output would precede its cause")
+        object.__setattr__(self, "delay", delay)
 
     @classmethod
     def fopdt(cls, gain: float, time_constant: float, delay: float) -> "Process":
@@ -83,16 +90,15 @@ class Process:
 
         gain [y/u], time_constant [s] > 0, delay [s] >= 0.
         """
-        if not time_constant > 0:
-            raise ProcessError(f"time_constant = {time_constant!r} s must be positive")
-        return cls((gain,), (time_constant, 1.0), delay)
+        return cls((gain,), (positive(time_constant, "time_constant", ProcessError, " s"), 1.0), delay)
 
     @classmethod
     def integrating(cls, gain: float, delay: float = 0.0, time_constant: float = 0.0) -> "Process":
         """Integrator plus dead time, G(s) = gain / (s (time_constant s + 1)) * exp(-delay s); gain in [y/(u s)]."""
-        if time_constant < 0:
+        lag = real(time_constant, "time_constant", ProcessError, " s")
+        if lag < 0:
             raise ProcessError(f"time_constant = {time_constant!r} s must not be negative")
-        return cls((gain,), (time_constant, 1.0, 0.0), delay)
+        return cls((gain,), (lag, 1.0, 0.0), delay)
 
     @classmethod
     def from_control(cls, system: Any, delay: float = 0.0) -> "Process":
@@ -150,11 +156,13 @@ class Process:
 
     def __mul__(self, other: "Process | float") -> "Process":
         if isinstance(other, Process):
-            num, den = np.polymul(self.num, other.num), np.polymul(self.den, other.den)
-            return Process(tuple(num), tuple(den), self.delay + other.delay)
-        if isinstance(other, numbers.Real):
-            return Process(tuple(float(other) * np.asarray(self.num)), self.den, self.delay)
-        return NotImplemented
+            num, den = np.convolve(self.num, other.num), np.convolve(self.den, other.den)
+            return Process(tuple(num.tolist()), tuple(den.tolist()), self.delay + other.delay)
+        try:
+            factor = real(plain(other), "factor", ProcessError)
+        except TypeError:
+            return NotImplemented
+        return Process(tuple(factor * c for c in self.num), self.den, self.delay)
 
     __rmul__ = __mul__
 
@@ -168,7 +176,7 @@ class Process:
 
     def delayed(self, more: float) -> "Process":
         """The same process with `more` seconds of dead time added."""
-        return Process(self.num, self.den, self.delay + more)
+        return Process(self.num, self.den, self.delay + real(more, "more", ProcessError, " s"))
 
     @property
     def order(self) -> int:

@@ -5,18 +5,27 @@ The loop is
     u = T/R r - S/R (y + n)            y = B/A exp(-L s) (u + d) + w
 
 r reference, n measurement noise, d load disturbance at the process input, w what a disturbance contributes that enters
-elsewhere. All step at t = 0 from rest.
+elsewhere. All step at t = 0 from rest. What is solved is the loop in units of its own: time in its characteristic time,
+u in the unit that makes the process's gain one.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from loopbook.controllers.regulator import Regulator
+from loopbook.numerics import units
 from loopbook.numerics.method_of_steps import DelayEquation, ResponseError, solve
 from loopbook.numerics.signals import Signal
 from loopbook.numerics.state_space import StateSpace, observer_form
 from loopbook.process.transfer_function import DelayedSum, Process
 
+SHARED = 1e-12
 INPUTS = ("reference", "load", "noise", "disturbance")
+
+
+def _in_seconds(signal: Signal, time: float, gain: float) -> Signal:
+    return Signal(signal.edges * time, signal.coefficients * gain)
 
 
 def _control(regulator: Regulator, smooth: bool) -> StateSpace:
@@ -47,7 +56,7 @@ def _beside(process: Process, path: Process) -> tuple[StateSpace, bool]:
     """State space with inputs (u, w) for y = B/A u + G w; poles that both share stand once. True: all are shared."""
     quotient, remainder = np.polydiv(process.den, path.den)
     shared = len(path.den) <= len(process.den) and np.allclose(
-        remainder, 0, rtol=0, atol=1e-12 * np.abs(process.den).max()
+        remainder, 0, rtol=0, atol=SHARED * np.abs(process.den).max()
     )
     if shared:
         return observer_form(process.den, [process.num, tuple(np.polymul(path.num, quotient))]), True
@@ -60,7 +69,7 @@ def _beside(process: Process, path: Process) -> tuple[StateSpace, bool]:
 def loop_equation(process: Process, regulator: Regulator, source: str, path: Process | None) -> DelayEquation:
     """The loop as a delay equation with outputs (u + d, u, y); the first is what passes the dead time."""
     plant, shared = _beside(process, path or Process((0.0,), (1.0,)))
-    if path is not None and not shared and (path.poles.real > -1e-12).any():
+    if path is not None and not shared and (path.poles.real >= -SHARED * abs(path.poles)).any():
         raise ResponseError(
             "the disturbance's path has poles that do not decay and are not the process's own: no regulator can hold it"
         )
@@ -103,14 +112,47 @@ def closed_loop_step(
     """
     if source not in INPUTS:
         raise ResponseError(f"source = {source!r}; one of {', '.join(INPUTS)}")
-    if source != "disturbance":
-        _, u, y = solve(loop_equation(process, regulator, source, None), horizon)
-        return y, u
-    if path is None:
+    if source == "disturbance" and path is None:
         raise ResponseError("a disturbance needs the path it takes to the output: Loop(process, regulator, path)")
+    loop = _InOwnUnits.of(process, regulator)
+    if source != "disturbance":
+        return loop.step(source, horizon)
     total: tuple[Signal, Signal] | None = None
     for term in path.terms if isinstance(path, DelayedSum) else (path,):
-        _, u, y = solve(loop_equation(process, regulator, source, term.rational), horizon)
+        y, u = loop.step(source, horizon, term.rational)
         pair = y.delayed(term.delay), u.delayed(term.delay)
         total = pair if total is None else (total[0] + pair[0], total[1] + pair[1])
     return total
+
+
+def _in_own_units(process: Process, time: float) -> tuple[Process, float]:
+    num, den, gain = units.ratio_in_units(process.num, process.den, time)
+    return Process(num, den, process.delay / time), gain
+
+
+@dataclass(frozen=True)
+class _InOwnUnits:
+    """The loop inside: u counted in units of 1/gain, time in units of `time` [s]."""
+
+    process: Process
+    regulator: Regulator
+    time: float
+    gain: float
+
+    @classmethod
+    def of(cls, process: Process, regulator: Regulator) -> "_InOwnUnits":
+        num, den = np.convolve(regulator.S, process.num).tolist(), np.convolve(regulator.R, process.den).tolist()
+        time = units.characteristic_time(num, den, process.delay)
+        inside, gain = _in_own_units(process, time)
+        T, S, R = (units.in_units(p, time) for p in (regulator.T, regulator.S, regulator.R))
+        size = units.size(R)
+        of_error = [units.in_units(p, 1.0, size / gain) for p in (T, S)]
+        return cls(inside, Regulator(*of_error, units.in_units(R, 1.0, size)), time, gain)
+
+    def step(self, source: str, horizon: float, path: Process | None = None) -> tuple[Signal, Signal]:
+        """(y, u) in seconds and in the units outside."""
+        path, of_path = (None, 1.0) if path is None else _in_own_units(path, self.time)
+        equation = loop_equation(self.process, self.regulator, source, path)
+        _, u, y = solve(equation, horizon / self.time, self.time)
+        step = {"load": self.gain, "disturbance": of_path}.get(source, 1.0)
+        return _in_seconds(y, self.time, step), _in_seconds(u, self.time, step / self.gain)

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from loopbook.numerics.method_of_steps import DEGREE, DelayEquation, cell_operator, graded_mesh, radau
+from loopbook.numerics.collocation import DEGREE, DelayEquation, cell_operator, graded_mesh, radau
 from loopbook.numerics.signals import Signal
 from loopbook.process.sampled import SampledProcess, held, sample
 from loopbook.process.transfer_function import Process

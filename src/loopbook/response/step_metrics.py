@@ -1,7 +1,7 @@
 """Rise time, settling time, overshoot and peak of a step response, in two named conventions.
 
-``exact``    a continuous response y(t) and its true final value. Crossing times are roots of y(t) - level, not grid
-             points; the band of the settling time is 2 % of the whole step |final - y(0)|.
+``exact``    a continuous response y(t) and its true final value, from rest before the step. Crossing times are roots of
+             y(t) - level, not grid points; the band of the settling time is 2 % of the whole step |final - rest|.
 ``sampled``  what MATLAB's ``stepinfo(y, t)`` does with samples: straight lines between them, the last sample as final
              value, and a band of 2 % of max |y - final|.
 
@@ -17,11 +17,14 @@ from typing import Any
 
 import numpy as np
 
+from loopbook.numerics.signals import Signal
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.response.signal_metrics import measures
 
 BAND = 0.02
 RISE = (0.1, 0.9)
 SECTIONS, FINEST = 32, 1e-8
+NO_STEP = 1e-12
 
 Progress = Callable[[np.ndarray], np.ndarray]
 
@@ -146,27 +149,30 @@ def _relative_to_final(y: np.ndarray, final: float) -> tuple[float, float]:
 
 
 def exact(
-    y: Callable[[np.ndarray], np.ndarray],
+    y: Signal | Callable[[np.ndarray], np.ndarray],
     final: float,
     horizon: float,
     *,
+    rest: float | None = None,
     breakpoints: Iterable[float] = (),
     points: int = 4000,
     band: float = BAND,
 ) -> StepMetrics:
     """Metrics of a continuous response to a step at t = 0, with its true final value.
 
-    With n(t) = (y(t) - y(0)) / (final - y(0)):
+    With n(t) = (y(t) - rest) / (final - rest), where rest is the output before the step:
 
         rise       = t(n = 0.9) - t(n = 0.1), first crossings      settling  = last t with |n - 1| = band
         overshoot  = 100 max(0, max n - 1)                         undershoot = 100 max(0, -min n)
 
-    y: function of an array of times, s, in [0, horizon]. final: lim y(t); for a disturbance that is controlled away
-    it equals y(0) and none of these measures exists. horizon: s, long enough to settle. breakpoints: times where y
-    has a corner or a jump (multiples of a dead time); extrema between two of them are found by refining. points:
-    grid on which crossings are bracketed before they are refined to rounding; two crossings closer than
-    horizon/points may be missed.
-    Raises NotSettled (with horizon, error, band), and StepMetricsError for final = y(0), NaN, a horizon <= 0.
+    y: a `Signal`, whose rest is 0 and of which nothing can be missed; or a function of an array of times, s, in
+    [0, horizon]. final: lim y(t); for a disturbance that is controlled away it equals rest and none of these measures
+    exists. horizon: s, long enough to settle.
+    Of a function only: rest: by default y(0), right where y does not jump there. breakpoints: times where y has a
+    corner or a jump (multiples of a dead time); extrema between two of them are found by refining. points: grid on
+    which crossings are bracketed before they are refined to rounding; two crossings closer than horizon/points may be
+    missed.
+    Raises NotSettled (with horizon, error, band), and StepMetricsError for final = rest, NaN, a horizon <= 0.
 
     >>> m = exact(lambda t: 1 - np.exp(-t), final=1.0, horizon=20.0)
     >>> round(m.rise, 9), round(m.settling, 9)                           # ln 9, ln 50
@@ -176,27 +182,31 @@ def exact(
         raise StepMetricsError(f"horizon must be a positive time in s, got {horizon}")
     if not isfinite(final):
         raise StepMetricsError(f"final must be finite, got {final}: a response without a final value does not settle")
+    if isinstance(y, Signal):
+        y = y.until(min(horizon, y.end))
+        largest, end = abs(y.peak()[1]), float(y(y.end))
+        _need_a_step(final, 0.0, largest)
+        if abs(end - final) > band * abs(final):
+            raise NotSettled(y.end, abs(end - final), band * abs(final))
+        return StepMetrics(*measures(y, final, band, RISE), final=float(final), convention="exact")
     inside = [b for b in breakpoints if 0 < b < horizon]
     t = np.unique(np.concatenate([np.linspace(0.0, horizon, points + 1), inside]))
     values = np.asarray(y(t), dtype=float)
     _checked(t, values)
-    step = final - values[0]
-    if abs(step) <= 1e-12 * max(1.0, float(np.max(np.abs(values)))):
-        raise StepMetricsError(
-            f"the response ends where it begins ({final:g}): rise, settling and overshoot refer to the step "
-            "final - y(0). For a disturbance response use its peak and integrals"
-        )
+    before = float(values[0] if rest is None else rest)
+    step = final - before
+    _need_a_step(final, before, float(np.max(np.abs(values))))
 
     def progress(s: np.ndarray) -> np.ndarray:
-        return (np.asarray(y(s), dtype=float) - values[0]) / step
+        return (np.asarray(y(s), dtype=float) - before) / step
 
-    n = (values - values[0]) / step
+    n = (values - before) / step
     if abs(n[-1] - 1) > band:
         raise NotSettled(horizon, abs(values[-1] - final), band * abs(step))
     low, high = (_root(progress, t, int(np.flatnonzero(n >= share)[0]), share) for share in RISE)
     top, bottom = _extremum(progress, t, n, 1), _extremum(progress, t, n, -1)
     settling = _settling(progress, t, n, band)
-    peak_time, peak = max(((s, float(values[0] + v * step)) for s, v in (top, bottom)), key=lambda p: abs(p[1]))
+    peak_time, peak = max(((s, float(before + v * step)) for s, v in (top, bottom)), key=lambda p: abs(p[1]))
     return StepMetrics(
         rise=high - low,
         settling=settling,
@@ -207,6 +217,14 @@ def exact(
         final=float(final),
         convention="exact",
     )
+
+
+def _need_a_step(final: float, rest: float, largest: float) -> None:
+    if abs(final - rest) <= NO_STEP * max(largest, abs(final)):
+        raise StepMetricsError(
+            f"the response ends where it begins ({final:g}): rise, settling and overshoot refer to the step "
+            "final - y(0). For a disturbance response use its peak and integrals"
+        )
 
 
 def _root(progress: Progress, t: np.ndarray, i: int, level: float) -> float:

@@ -1,0 +1,71 @@
+"""The numbers people have, as Python's own: taken at the door, or refused there in one sentence.
+
+int, float, Fraction, Decimal, NumPy scalars and arrays of one, SymPy numbers. What is exact stays exact: a Decimal
+and a SymPy rational become a Fraction, a NumPy integer an int. What is rounded becomes a float, so that nothing goes
+on in single precision or in whole numbers that overflow.
+"""
+
+import math
+import numbers
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+EXPECTED = "a real number is expected (int, float, Fraction, Decimal, a NumPy or SymPy number)"
+
+
+def plain(value: Any) -> int | float | Fraction:
+    """The same number as an int, a float or a Fraction. Raises TypeError for anything that is no real number.
+
+    >>> from decimal import Decimal
+    >>> plain(np.int64(3)), plain(Decimal("0.1")), plain(np.float32(0.5))
+    (3, Fraction(1, 10), 0.5)
+    """
+    kind = type(value)
+    if kind is float or kind is int or kind is Fraction:
+        return value
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        return plain(value.item())
+    if isinstance(value, bool | np.bool_ | str | bytes):
+        raise TypeError(f"{value!r} is no number: {EXPECTED}")
+    if isinstance(value, Decimal):
+        return Fraction(value) if value.is_finite() else float(value)
+    if isinstance(value, np.integer):
+        return int(value)
+    if getattr(value, "is_Rational", False):
+        return Fraction(int(value.p), int(value.q))
+    if isinstance(value, numbers.Rational):
+        return Fraction(value.numerator, value.denominator)
+    if isinstance(value, numbers.Real) or (getattr(value, "is_real", False) and getattr(value, "is_number", False)):
+        return float(value)
+    raise TypeError(f"{value!r} is a {kind.__name__}: {EXPECTED}")
+
+
+def real(value: Any, name: str, error: type[ValueError] = ValueError, unit: str = "") -> float:
+    """The same number as a finite float. Raises `error` with the name, the value and what is expected.
+
+    >>> from decimal import Decimal
+    >>> real(Decimal("2.5"), "h")
+    2.5
+    """
+    try:
+        number = float(plain(value))
+    except (TypeError, OverflowError):
+        raise error(f"{name} = {value!r}: {EXPECTED}") from None
+    if not math.isfinite(number):
+        raise error(f"{name} = {value!r}: a finite number{' of seconds' if unit == ' s' else ''} is expected")
+    return number
+
+
+def positive(value: Any, name: str, error: type[ValueError] = ValueError, unit: str = "") -> float:
+    """The same number as a finite float above zero. Raises `error` otherwise.
+
+    >>> positive(3, "h")
+    3.0
+    """
+    number = real(value, name, error, unit)
+    if not number > 0:
+        raise error(f"{name} = {value!r}{unit} must be positive")
+    return number
