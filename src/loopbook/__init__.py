@@ -1,3 +1,68 @@
-"""Control design with exact dead time, and a ledger of what three documents print about it."""
+"""Control engineering in numbers, with exact dead time: processes, controllers, loops, experiments, tuning, design.
 
-__version__ = "0.1.0"
+    import loopbook as lb
+
+    process = lb.tf(2, [40, 14, 1], delay=3)                  # 2 e^(-3s)/((10 s + 1)(4 s + 1)), time in seconds
+    loop = lb.Loop(process, lb.tune(process, "amigo", "PID"))
+    print(loop.margins(), lb.step_info(loop))
+    loop.plot()
+
+This is the public surface: ``TABLE`` decides it, and each name is imported when it is first asked for. Times are in
+seconds, frequencies in rad/s, phases that are shown in degrees.
+
+>>> import loopbook as lb
+>>> round(lb.Loop(lb.tf(2, [10, 1], 3), lb.PidStandard(0.5, 10)).margins().phase, 2)
+72.81
+"""
+
+from loopbook.lazy import attach
+
+TABLE = {
+    # what is controlled
+    "Process": "loopbook.process.transfer_function:Process",
+    "DelayedSum": "loopbook.process.transfer_function:DelayedSum",
+    "SampledProcess": "loopbook.process.sampled:SampledProcess",
+    "tf": "loopbook.process.construct:tf",
+    "sample": "loopbook.process.sampled:sample",
+    "c2d": "loopbook.process.sampled:sample",
+    "to_control": "loopbook.process.interop:to_control",
+    "from_control": "loopbook.process.interop:from_control",
+    # what controls it
+    "PidStandard": "loopbook.controllers.pid_forms:PidStandard",
+    "PidParallel": "loopbook.controllers.pid_forms:PidParallel",
+    "PidSeries": "loopbook.controllers.pid_forms:PidSeries",
+    "Regulator": "loopbook.controllers.regulator:Regulator",
+    "Rst": "loopbook.controllers.rst:Rst",
+    "Pid": "loopbook.controllers.pid:Pid",
+    "PidSettings": "loopbook.controllers.settings:PidSettings",
+    "OnOff": "loopbook.controllers.on_off:OnOff",
+    # the loop
+    "Loop": "loopbook.loop.continuous:Loop",
+    "SampledLoop": "loopbook.loop.sampled:SampledLoop",
+    "margins": "loopbook.loop.diagrams:margins",
+    "bode": "loopbook.loop.diagrams:bode",
+    "nyquist": "loopbook.loop.diagrams:nyquist",
+    "compare": "loopbook.loop.compare:compare",
+    "simulate": "loopbook.response.simulation:simulate",
+    "step_info": "loopbook.response.step_info:step_info",
+    # how its controller is found
+    "tune": "loopbook.tuning.by_name:tune",
+    "Tuning": "loopbook.tuning.result:Tuning",
+    "place": "loopbook.pole_placement.place:place",
+    # what is known of the process
+    "StepData": "loopbook.experiments.data:StepData",
+    "IntegratingStepData": "loopbook.experiments.data:IntegratingStepData",
+    "FrequencyData": "loopbook.experiments.data:FrequencyData",
+    "TwoLagData": "loopbook.experiments.data:TwoLagData",
+    "IntegratingPulseData": "loopbook.experiments.data:IntegratingPulseData",
+    "Record": "loopbook.records.record:Record",
+    "read_csv": "loopbook.records.reading:read_csv",
+    "identify": "loopbook.identification.arrays:identify",
+    # by subject
+    "tuning": "loopbook.tuning",
+    "experiments": "loopbook.experiments",
+    "plots": "loopbook.plots",
+    "design": "loopbook.design",
+    "documents": "loopbook.documents",
+}
+__getattr__, __dir__, __all__ = attach(__name__, TABLE)

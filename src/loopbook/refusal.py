@@ -11,8 +11,10 @@ class Refusal(ValueError):
     the process integrates: take the final tangent (use integrating_step)
     >>> print(error.reason)
     the process integrates: take the final tangent
+    >>> print(error.advice)
+    use integrating_step
     """
 
     def __init__(self, reason: str, advice: str = ""):
         super().__init__(f"{reason} ({advice})" if advice else reason)
-        self.reason = reason
+        self.reason, self.advice = reason, advice

@@ -11,7 +11,7 @@ from derivations.pid import exact_filters, offset, rc_filter
 from derivations.pid.pid_laws import derivative, filtered_derivative, integral_tracking, rate
 from derivations.pid.rc_filter import R, Tf, filter_law
 from derivations.plants import gain_scheduling
-from derivations.tuning import amigo, pid_by_angles
+from derivations.tuning import amigo, amigo_integrating, letters, pid_by_angles
 
 a, b, start = symbols("a b start")
 
@@ -70,15 +70,15 @@ def test_joint_M_as_solve_finds_it():
 @pytest.mark.parametrize("rule", [amigo.pi_step, amigo.pid_step, amigo.pid_combined])
 def test_limits_at_infinity_as_sympy_finds_them(rule):
     rule = rule()
-    lag = amigo.T if amigo.T in rule.inputs else amigo.T_1
+    lag = letters.T if letters.T in rule.inputs else letters.T_1
     for expression in (rule.K, rule.ki, rule.kd):
-        at_lag = expression.subs(amigo.K_p, amigo.K_v * lag)
-        assert simplify(amigo._at_infinity(at_lag, lag) - limit(sympy.cancel(at_lag), lag, sympy.oo)) == 0
+        at_lag = expression.subs(letters.K_p, letters.K_v * lag)
+        assert simplify(amigo_integrating._at_infinity(at_lag, lag) - limit(sympy.cancel(at_lag), lag, sympy.oo)) == 0
 
 
 def test_a_limit_that_does_not_exist_is_refused():
     with pytest.raises(ValueError, match="grows without bound with T"):
-        amigo._at_infinity(amigo.T**2 / (amigo.T + amigo.L), amigo.T)
+        amigo_integrating._at_infinity(letters.T**2 / (letters.T + letters.L), letters.T)
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])

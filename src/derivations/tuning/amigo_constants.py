@@ -11,8 +11,8 @@ import sympy
 from sympy import Expr, Symbol
 
 from derivations.algebra.rational import solved_for
-from derivations.tuning import amigo
-from derivations.tuning.amigo import K_180, L_1, T_1, T_2, T_180, K_p, K_v, L, T, kappa
+from derivations.tuning import amigo, amigo_integrating
+from derivations.tuning.letters import K_180, L_1, T_1, T_2, T_180, K_p, K_v, L, T, kappa
 
 x, x_1, x_2 = (Symbol(name, positive=True) for name in ("x", "x_1", "x_2"))  # T/L, T_1/L_1, T_2/L_1
 
@@ -51,7 +51,7 @@ def pi_step() -> dict[str, Expr]:
     >>> pi_step()["pi-step-Ti-2"]
     13
     """
-    rule, integrating = amigo.pi_step(), amigo.pi_step_integrating()
+    rule, integrating = amigo.pi_step(), amigo_integrating.pi_step_integrating()
     K, Ti = pure(rule.K * K_p, x), pure(rule.Ti / L, x)
     (top, *_), (lead, middle, last) = _fraction(Ti - _at(Ti, True))
     return {
@@ -74,7 +74,7 @@ def pid_step() -> dict[str, Expr]:
     >>> pid_step()["pid-integrating-Ti"]
     8
     """
-    rule, integrating = amigo.pid_step(), amigo.pid_step_integrating()
+    rule, integrating = amigo.pid_step(), amigo_integrating.pid_step_integrating()
     K, Ti, Td = pure(rule.K * K_p, x), pure(rule.Ti / L, x), pure(rule.Td / L, x)
     (fast, slow), (shift, one) = _fraction(Ti)
     (gain, _), (lead, offset) = _fraction(Td)
@@ -156,7 +156,7 @@ def pid_combined_integrating() -> dict[str, Expr]:
     >>> pid_combined_integrating()["gamma-2-integrating"]
     4/25
     """
-    rule = amigo.pid_combined_integrating()
+    rule = amigo_integrating.pid_combined_integrating()
     found = {f"{name}-integrating": value for name, value in pid_combined().items() if name != "combined-b"}
     for letter, number in (("alpha", rule.K * L_1), ("beta", rule.ki * L_1**2), ("gamma", rule.kd)):
         constant, slope = sympy.Poly(pure(number * K_v, x_2), x_2).all_coeffs()[::-1]

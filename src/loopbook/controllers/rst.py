@@ -16,6 +16,8 @@ from functools import cached_property
 
 import numpy as np
 
+from loopbook.numerics import polynomial_text
+
 Polynomial = Sequence[float] | np.ndarray
 NEAR = 1e-8
 
@@ -87,6 +89,14 @@ class Rst:
         """S/R at complex z."""
         inverse = 1 / np.asarray(z)
         return np.polyval(self.S[::-1], inverse) / np.polyval(self.R[::-1], inverse)
+
+    def latex(self) -> str:
+        """R, S and T in LaTeX, in powers of z^-1."""
+        rows = (f"{name} &= {polynomial_text.in_delays(getattr(self, name))}" for name in "RST")
+        return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
 
     def controller(self, low: float = -np.inf, high: float = np.inf) -> "RstController":
         """A controller that runs it, with the output limited to [low, high] and no windup."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData, TwoLagData
+    from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
     from loopbook.identification.choice import Identified
     from loopbook.process.transfer_function import Process
 
@@ -103,14 +103,6 @@ class Model:
             return self.frequency
         point = ultimate(self.upright.process)
         return FrequencyData(point.K180, point.T180)
-
-    @cached_property
-    def two_lag_data(self) -> "TwoLagData":
-        """T1, T2, L1 of the two-lag model behind AMIGO's combined rule; of a stable model with at most two lags."""
-        from loopbook.experiments.data import TwoLagData
-
-        T1, T2 = (*self.lags, 0.0)[:2]
-        return TwoLagData(abs(self.gain), T1, T2, self.delay)
 
     def variations(self, number: int, seed: int = 0) -> list["Model"]:
         """Models drawn from the confidence region, normal around this one; none where it is taken as exact.

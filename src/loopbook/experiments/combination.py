@@ -72,7 +72,7 @@ def solve(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)) 
         raise ExperimentError(
             f"no T2/T1 between 0 and 1 gives both T63 = {step.T63:.4g} s and the frequency data (the equation is short "
             f"by {abs(left):.2g} of the step at best): two lags and a dead time do not describe the process; use "
-            "amigo.pid_step, or amigo.pid_frequency where kappa > 0.2, or combination.nearest"
+            "amigo-step-pid, or amigo-frequency-pid where kappa > 0.2, or combination.nearest"
         )
     return found
 
@@ -89,7 +89,7 @@ def nearest(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)
     if frequency.kappa(step.Kp) >= 1:
         raise ExperimentError(
             f"kappa = K180/Kp = {frequency.kappa(step.Kp):.4g} >= 1: no lag lowers the gain at -180 degrees; the "
-            "process is nearly a pure dead time, use amigo.pi_step or amigo.pid_step"
+            "process is nearly a pure dead time, use amigo-step-pi or amigo-step-pid"
         )
     _, safe, dead, e1, equal, *_ = _functions("numpy")
     T1 = safe(ALPHAS, frequency.w180, step.Kp, frequency.Ku)

@@ -81,6 +81,16 @@ class FrequencyData:
     def __post_init__(self):
         _positive("frequency data", K180=self.K180, T180=self.T180)
 
+    @classmethod
+    def from_ultimate(cls, Ku: float, Tu: float) -> "FrequencyData":
+        """From the gain [u/y] and the period [s] at which a proportional loop just keeps oscillating.
+
+        >>> FrequencyData.from_ultimate(Ku=4, Tu=2)
+        FrequencyData(K180=0.25, T180=2)
+        """
+        _positive("the ultimate point", Ku=Ku, Tu=Tu)
+        return cls(1 / Ku, Tu)
+
     @property
     def Ku(self) -> float:
         """The ultimate gain 1/K180 [u/y]."""

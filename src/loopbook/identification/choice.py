@@ -6,6 +6,8 @@ import numpy as np
 
 from loopbook.identification.least_squares import Fit, fit_all
 from loopbook.identification.models import FIRST_ORDER, INTEGRATING, SECOND_ORDER, Structure
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record, RecordError
 from loopbook.records.steps import Steps
 
@@ -14,7 +16,7 @@ POOREST_FIT = 40.0  # percent
 
 
 @dataclass(frozen=True)
-class Identified:
+class Identified(ShownAsTable):
     """A record with its fitted models and the one that was chosen.
 
     criteria: Akaike's criterion of each structure relative to the best, all with the same effective number of samples.
@@ -28,6 +30,18 @@ class Identified:
     chosen: Fit
     reasons: tuple[str, ...]
     warnings: tuple[str, ...]
+
+    @property
+    def process(self) -> Process:
+        """The chosen model."""
+        return self.chosen.process
+
+    def table(self) -> PlainTable:
+        """The chosen model's parameters with the half-widths of their 95 % intervals."""
+        return self.chosen.table()
+
+    def __str__(self) -> str:
+        return "\n".join([str(self.chosen), *self.reasons, *(f"mind: {text}" for text in self.warnings)])
 
 
 def _criteria(fits: dict[Structure, Fit], n: int) -> dict[Structure, float]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.models import STRUCTURES, Structure
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps, find_steps
 
@@ -33,7 +34,7 @@ class Parameter:
 
 
 @dataclass(frozen=True)
-class Fit:
+class Fit(ShownAsTable):
     """One fitted model.
 
     parameters: gain first (Kp or Kv), then time constants, then dead time L. residuals: shape (n,). fit: percentage
@@ -69,6 +70,15 @@ class Fit:
     def process(self):
         """The model as a Process."""
         return self.structure.process(self.gain, self.lags, self.delay)
+
+    def table(self) -> PlainTable:
+        """The parameters with the half-widths of their 95 % intervals."""
+        rows = [[p.name, p.value, p.half_width] for p in self.parameters]
+        return PlainTable(["parameter", "value", "+- (95 %)"], rows)
+
+    def __str__(self) -> str:
+        said = f"explains {self.fit:.1f} % of the response (rms residual {self.rmse:.3g})"
+        return f"{self.structure.name}, {said}\n{self.table()}"
 
     def parameter(self, name: str) -> Parameter:
         return next(p for p in self.parameters if p.name == name)

@@ -133,6 +133,22 @@ class Loop:
         if count:
             raise LoopError(f"the loop is not stable ({count} roots in the right half plane): it has no {what}")
 
+    def plot(self, horizon: float | None = None) -> Any:
+        """y and u after a unit step of the reference, and of the load at half the horizon [s]: a matplotlib figure."""
+        from loopbook.plots.curves import curves
+        from loopbook.plots.shown import shown_once
+
+        y, u = self.reference_and_load(horizon or 3 * self.step("reference").metrics().settling)
+        title = "Unit steps of the reference (at once) and of the load (half-way)"
+        return shown_once(curves({"output $y$": {"y": y}, "input $u$": {"u": u}}, title))
+
+    def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """((t, y), (t, u)) after a unit step of the reference at 0 and one of the load at half the horizon [s]."""
+        t = np.linspace(0.0, horizon, 800)
+        y1, u1 = self.step("reference", horizon).after([(0.0, 1.0)], t)
+        y2, u2 = self.step("load", horizon).after([(horizon / 2, 1.0)], t)
+        return (t, y1 + y2), (t, u1 + u2)
+
     def settling_horizon(self) -> float:
         """A time [s] after which the slowest mode has fallen by eleven decades; of a stable loop."""
         self._need_stable("settling time")
@@ -232,6 +248,15 @@ class StepResponse:
     def peak_input(self) -> tuple[float, float]:
         """(time [s], value [u]) of the largest |u|; the value keeps its sign."""
         return self.u.until(min(self.horizon, self.u.end)).peak()
+
+    def plot(self) -> Any:
+        """y and u as a matplotlib figure."""
+        from loopbook.plots.curves import curves
+        from loopbook.plots.shown import shown_once
+
+        t = np.linspace(0.0, min(self.horizon, self.y.end, self.u.end), 1000)
+        panels = {"output $y$": {"y": (t, self.y(t))}, "input $u$": {"u": (t, self.u(t))}}
+        return shown_once(curves(panels, f"Unit step of the {self.source}"))
 
     def after(self, changes: Any, times: Any) -> tuple[np.ndarray, np.ndarray]:
         """(y, u) at `times` [s] for an input that changes in steps: changes = ((time, size), ...), from rest.

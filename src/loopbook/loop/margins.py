@@ -11,6 +11,7 @@ import numpy as np
 from loopbook.loop.sensitivity_peaks import Peak, complementary_peak, sensitivity_peak
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopError, LoopTransfer
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class PhaseCrossover:
 
 
 @dataclass(frozen=True)
-class Margins:
+class Margins(ShownAsTable):
     """The margins of a stable loop.
 
     gain: the smallest factor above 1 that makes the loop unstable (inf if none). gain_low: the largest below 1 (0 if
@@ -61,6 +62,16 @@ class Margins:
     def gain_decibels(self) -> float:
         """The upper gain margin in dB."""
         return float(20 * np.log10(self.gain))
+
+    def table(self) -> PlainTable:
+        """Each margin with the frequency at which it is taken."""
+        gain = next((c.w for c in self.phase_crossovers if c.gain == self.gain), float("nan"))
+        low = next((c.w for c in self.phase_crossovers if c.gain == self.gain_low), float("nan"))
+        phase = next((c.w for c in self.gain_crossovers if c.phase_margin == self.phase), float("nan"))
+        delay = next((c.w for c in self.gain_crossovers if c.delay_margin == self.delay), float("nan"))
+        rows = [["gain", self.gain, gain], ["gain, lower", self.gain_low, low], ["phase [°]", self.phase, phase]]
+        rows += [["delay [s]", self.delay, delay], ["Ms", self.Ms.value, self.Ms.w], ["Mt", self.Mt.value, self.Mt.w]]
+        return PlainTable(["margin", "value", "at [rad/s]"], [r for r in rows if r[:2] != ["gain, lower", 0.0]])
 
 
 def gain_crossovers(loop: LoopTransfer) -> tuple[GainCrossover, ...]:

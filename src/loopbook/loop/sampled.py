@@ -15,6 +15,7 @@ from loopbook.controllers.rst import Rst, zeros_of
 from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
@@ -24,7 +25,7 @@ SEARCH = 12
 
 
 @dataclass(frozen=True)
-class SampledMargins:
+class SampledMargins(ShownAsTable):
     """Margins of a stable sampled loop. gain, gain_low [-], phase [degrees], delay [s], Ms, Mt as in `margins.Margins`.
 
     delay is the smallest dead time that, added to the continuous process, makes the loop unstable; inf if none up to
@@ -41,6 +42,12 @@ class SampledMargins:
     @property
     def gain_decibels(self) -> float:
         return float(20 * np.log10(self.gain))
+
+    def table(self) -> PlainTable:
+        """Each margin, and the peaks with their frequencies."""
+        rows = [["gain", self.gain, ""], ["gain, lower", self.gain_low, ""], ["phase [°]", self.phase, ""]]
+        rows += [["delay [s]", self.delay, ""], ["Ms", self.Ms.value, self.Ms.w], ["Mt", self.Mt.value, self.Mt.w]]
+        return PlainTable(["margin", "value", "at [rad/s]"], [r for r in rows if r[:2] != ["gain, lower", 0.0]])
 
 
 @dataclass(frozen=True)

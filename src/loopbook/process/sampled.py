@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from loopbook.numerics import polynomial_text
 from loopbook.numerics.state_space import StateSpace, observer_form
 from loopbook.process.transfer_function import Process, ProcessError
 
@@ -71,6 +72,44 @@ class SampledProcess:
         if not self.tau:
             B = B[: n + 1]
         return np.concatenate([np.zeros(self.whole), B]), A
+
+    @property
+    def num(self) -> np.ndarray:
+        """B: the coefficients of z^0, z^-1, ..., those of the dead time first."""
+        return self.polynomials[0]
+
+    @property
+    def den(self) -> np.ndarray:
+        """A: the coefficients of z^0, z^-1, ...; the first is 1."""
+        return self.polynomials[1]
+
+    def response(self, u: Any) -> np.ndarray:
+        """y(k) to the inputs u(k), each held for h seconds, from rest; arrays of one length.
+
+        >>> sample(Process([1], [1, 0], delay=0.5), 1.0).response([1, 1, 1])
+        array([0. , 0.5, 1.5])
+        """
+        from scipy.signal import lfilter
+
+        return lfilter(self.num, self.den, np.asarray(u, dtype=float))
+
+    def latex(self) -> str:
+        """B/A in LaTeX, in powers of z^-1."""
+        return rf"\frac{{{polynomial_text.in_delays(self.num)}}}{{{polynomial_text.in_delays(self.den)}}}"
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+    def plot(self, steps: int | None = None) -> Any:
+        """The unit step response at the sampling instants as a matplotlib figure."""
+        from loopbook.plots.curves import curves
+        from loopbook.plots.shown import shown_once
+
+        slow = float(sum(1 / abs(p.real) for p in self.process.poles if p.real))
+        steps = steps or int((self.process.delay * 2 + 7 * slow) / self.h) or 40
+        t = self.h * np.arange(steps + 1)
+        points = {"o at the instants": (t, self.response(np.ones(steps + 1)))}
+        return shown_once(curves({"output $y$": points}, f"Unit step response, sampled every {self.h:g} s"))
 
     def __call__(self, z: Any) -> Any:
         """The pulse transfer function at complex z."""

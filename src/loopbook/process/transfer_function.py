@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.numerics import horner
+from loopbook.numerics import horner, polynomial_text
 from loopbook.numerics.real_numbers import plain, positive, real
 
 
@@ -129,6 +129,30 @@ class Process:
     def __call__(self, s: Any) -> Any:
         s = np.asarray(s)
         return horner.value(self.num, s) / horner.value(self.den, s) * np.exp(-self.delay * s)
+
+    def latex(self) -> str:
+        """The formula in LaTeX; the denominator as lags where four digits tell them exactly.
+
+        >>> Process([2], [40, 14, 1], 3).latex()
+        '\\\\frac{2}{(10 s + 1) (4 s + 1)} e^{-3 s}'
+        """
+        below = polynomial_text.lags(self.den)
+        above = polynomial_text.descending(self.num)
+        ratio = above if below == "1" else rf"\frac{{{above}}}{{{below}}}"
+        return ratio + (rf" e^{{-{polynomial_text.number(self.delay)} s}}" if self.delay else "")
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+    def plot(self, horizon: float | None = None) -> Any:
+        """The unit step response as a matplotlib figure, up to the horizon [s]."""
+        from loopbook.plots.curves import curves
+        from loopbook.plots.shown import shown_once
+
+        if horizon is None:
+            horizon = self.delay * 2 + 7 * float(sum(1 / abs(p.real) for p in self.poles if p.real)) or 10.0
+        t = np.linspace(0.0, horizon, 600)
+        return shown_once(curves({"output $y$": {"step response": (t, self.step(t))}}, "Unit step response"))
 
     def __mul__(self, other: "Process | float") -> "Process":
         if isinstance(other, Process):

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -84,6 +84,15 @@ class Simulation:
         order = np.argsort(np.concatenate(edges), kind="stable")
         all_edges = np.append(np.concatenate(edges)[order], self.t[-1])
         return Signal(all_edges, np.concatenate(rows)[order].reshape(-1, DEGREE + 1))
+
+    def plot(self) -> Any:
+        """Output and input as a matplotlib figure, u as the staircase that it is."""
+        from loopbook.plots.curves import curves
+        from loopbook.plots.shown import shown_once
+        from loopbook.plots.stairs import stairs
+
+        y = {"output": (self.t, self.y), "reference": stairs(self.t, self.reference)}
+        return shown_once(curves({"output $y$": y, "input $u$": {"u": stairs(self.t, self.u)}}, "Simulation"))
 
     @property
     def held_input(self) -> Signal:

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics.signals import Signal
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.response.signal_metrics import measures
 
 BAND = 0.02
@@ -47,7 +48,7 @@ class NotSettled(StepMetricsError):
 
 
 @dataclass(frozen=True)
-class StepMetrics:
+class StepMetrics(ShownAsTable):
     """Measures of one step response.
 
     rise: s. settling: s, absolute time. overshoot, undershoot: % of the step, >= 0. peak: largest |y|, in the unit of
@@ -62,6 +63,12 @@ class StepMetrics:
     peak_time: float
     final: float
     convention: str
+
+    def table(self) -> PlainTable:
+        """Each measure with its unit."""
+        rows = [["rise [s]", self.rise], ["settling [s]", self.settling], ["overshoot [%]", self.overshoot]]
+        rows += [["undershoot [%]", self.undershoot], ["peak", self.peak], ["peak time [s]", self.peak_time]]
+        return PlainTable(["step response", self.convention], [*rows, ["final", self.final]])
 
 
 def _checked(t: np.ndarray, y: np.ndarray) -> None:

@@ -5,12 +5,17 @@ pole, are choices; what `double-tank` prints as the outcome of a tool has them a
 """
 
 from fractions import Fraction
-from math import pi
+from math import pi, radians
 from typing import Any, NamedTuple
 
+from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidParallel
 from loopbook.process.transfer_function import Process
-from loopbook.tuning.rule import RuleDoesNotApply
+from loopbook.tuning.process_data import ProcessData
+from loopbook.tuning.result import RuleDoesNotApply, Tuning
+from loopbook.tuning.rule import TuningRule
+
+SOURCE = "a zero and a pole by their angles at the crossover frequency; double-tank, the fine-tuned PID"
 
 
 def parameters(
@@ -103,3 +108,26 @@ def angles_of(process: Process, controller: PidParallel) -> Angles:
     w = crossovers[0].w
     zero, lead = sorted(float(x) for x in np.arctan(w / -zeros.real))
     return Angles(w, float(np.radians(crossovers[0].phase_margin)), zero, lead, float(np.arctan(w / controller.N)))
+
+
+def _settings(data: ProcessData, w: float, phase_margin: float, zero: float = 45.0, pole: float = 0.6) -> Tuning:
+    """The rule with angles in degrees, as margins are given."""
+    found = pid(data.upright(), w, *(radians(angle) for angle in (phase_margin, zero, pole)))
+    return Tuning(found.standard(), "phase-margin-pid", SOURCE)
+
+
+def computed() -> tuple[TuningRule, ...]:
+    """The rule of the family that has this margin at this frequency, with a filter in its settings."""
+    options = {
+        "w": "the crossover frequency [rad/s]",
+        "phase_margin": "there [degrees]",
+        "zero": "the angle of one zero there [degrees], default 45",
+        "pole": "the angle of the filter's pole there [degrees], default 0.6",
+    }
+    return (
+        TuningRule(
+            *("phase-margin-pid", "phase margin, PID", Takes.PROCESS, "PID", None),
+            *("a phase margin at a crossover frequency", None, SOURCE, _settings, options, ("w", "phase_margin")),
+            text="C(s) G(s) has magnitude 1 and the phase margin at i w, exact with dead time",
+        ),
+    )

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from derivations.tuning.takes import Takes
 from loopbook.process.frequency_response import NoSuchFrequency, frequency_at, phase
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo_branch import (
@@ -30,9 +31,10 @@ from loopbook.tuning.migo_branch import (
     local_clearance,
     smooth_branch,
 )
-from loopbook.tuning.rule import RuleDoesNotApply, Tuning
+from loopbook.tuning.result import RuleDoesNotApply, Tuning
+from loopbook.tuning.rule import TuningRule
 
-__all__ = ["M_DEFAULT", "Migo", "circle", "clearance", "is_stable", "pi", "pid", "smooth_branch"]
+__all__ = ["M_DEFAULT", "Migo", "circle", "clearance", "computed", "is_stable", "pi", "pid", "smooth_branch"]
 
 SOURCE = "Åström, Panagopoulos, Hägglund (1998, 2002); pid-report, section 5.3"
 
@@ -41,14 +43,11 @@ SOURCE = "Åström, Panagopoulos, Hägglund (1998, 2002); pid-report, section 5.
 class Migo(Tuning):
     """A MIGO optimum.
 
-    M: the joint robustness asked for. ki [u/(y s)], kd [u s/y]: the gains. touches: the frequencies [rad/s] at which
-    the Nyquist curve touches the circle (inf where dead time turns a loop gain that does not fade). stable: by the
-    argument count of the loop.
+    M: the joint robustness asked for. touches: the frequencies [rad/s] at which the Nyquist curve touches the circle
+    (inf where dead time turns a loop gain that does not fade). stable: by the argument count of the loop.
     """
 
     M: float = M_DEFAULT
-    ki: float = 0.0
-    kd: float = 0.0
     touches: tuple[float, ...] = ()
     stable: bool = False
 
@@ -65,7 +64,7 @@ def pi(process: Process, M: float = M_DEFAULT) -> Migo:
     """
     w = _pi_touch(process, _reference(process), M)
     k, ki, _ = smooth_branch(process, np.array(w), M)
-    return _result(process, "MIGO PI", M, (k, ki, 0.0), (w,))
+    return _result(process, "migo-pi", M, (k, ki, 0.0), (w,))
 
 
 def pid(process: Process, M: float = M_DEFAULT) -> Migo:
@@ -85,7 +84,7 @@ def pid(process: Process, M: float = M_DEFAULT) -> Migo:
         w = _where_derivative_is(process, kd_limit(process, M), low, high, M)
     else:
         w, second = _second_touch(process, scale, start, low, high, second, M)
-    return _result(process, "MIGO PID", M, tuple(smooth_branch(process, np.array(w), M)), (w, second))
+    return _result(process, "migo-pid", M, tuple(smooth_branch(process, np.array(w), M)), (w, second))
 
 
 def _pi_touch(process: Process, scale: float, M: float) -> float:
@@ -207,7 +206,7 @@ def _result(process: Process, rule: str, M: float, gains: tuple[float, float, fl
     stable = is_stable(process, settings)
     if not stable:
         raise RuleDoesNotApply(f"{rule}: the loop with {settings} is unstable by its argument count")
-    return Migo(settings, rule, SOURCE, (), M, ki, kd, tuple(map(float, touches)), stable)
+    return Migo(settings, rule, SOURCE, M=M, touches=tuple(map(float, touches)), stable=stable)
 
 
 def is_stable(process: Process, regulator) -> bool:
@@ -218,3 +217,17 @@ def is_stable(process: Process, regulator) -> bool:
     num, den = regulator.transfer()
     loop = LoopTransfer(tuple(np.polymul(num, process.num)), tuple(np.polymul(den, process.den)), process.delay)
     return unstable_roots(loop) == 0
+
+
+def computed() -> tuple[TuningRule, ...]:
+    """Both optima as rules of the family."""
+    return tuple(
+        TuningRule(
+            *(f"migo-{design.__name__}", f"MIGO, {design.__name__.upper()}", Takes.PROCESS, design.__name__.upper()),
+            *(None, "load, a given robustness M", 1998, SOURCE),
+            settings=lambda data, design=design, **options: design(data.upright(), **options),
+            options={"M": f"the joint robustness, default {M_DEFAULT}"},
+            text="maximise K/Ti subject to |C + L(i w)| >= R for all w",
+        )
+        for design in (pi, pid)
+    )

@@ -1,81 +1,92 @@
-"""Tuning rules: a module per method, each returning settings that say where they come from and how far to trust them.
+"""A tuning rule that runs: the family's one form, whether formulas compute it or an algorithm.
 
-Every rule gives a `Tuning`: the settings, the rule's name and source, and notes on its validity. The settings are the
-standard form ``K (1 + 1/(s Ti) + s Td)`` acting on the error (b = c = 1, no filter), as the rules were published. The
-formulas are the SymPy expressions of `derivations.tuning.rules`; `compute` turns them into numbers.
+    rule(data, **options) -> Tuning
+
+data: a `Process`, what experiments tell of it, an identified model; `process_data` says how the one leads to the other.
 """
 
-from dataclasses import dataclass
-from functools import cache
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
-from loopbook.refusal import Refusal
+from derivations.tuning.takes import Takes
+from loopbook.tuning.process_data import ProcessData
+from loopbook.tuning.result import RuleDoesNotApply, Tuning
 
-if TYPE_CHECKING:
-    from loopbook.controllers.pid_forms import PidStandard
-
-
-class RuleDoesNotApply(Refusal):
-    """A tuning rule was asked for a process it does not cover; the message names the rule that does."""
+REQUIRED = "required"
 
 
 @dataclass(frozen=True)
-class Tuning:
-    """Settings and where they come from.
+class TuningRule:
+    """One rule with what is known of it; call it with data.
 
-    pid: standard form; Ti = inf without integral action, Td = 0 without derivative action. rule: the rule's name in
-    `derivations.tuning.rules`. source: who and where. notes: what limits the trust in these numbers, one sentence each.
+    name: in `loopbook.tuning.RULES`. title: in tables. takes: what it must know of the process. action: P, PI or PID.
+    integrating: for integrating processes (True), stable ones (False), both (None). aim: what its settings are meant
+    for. year, source: when (None: no date is known) and who. options: by name, what they are; those in `required` must
+    be given. variant_of: the rule of which this is another source's variant. text: its formulas or its idea.
+
+    >>> from loopbook.tuning.registry import rules
+    >>> rules()["amigo-step-pid"].action, rules()["amigo-step-pid"].year
+    ('PID', 2006)
     """
 
-    pid: "PidStandard"
-    rule: str
+    name: str
+    title: str
+    takes: Takes
+    action: str
+    integrating: bool | None
+    aim: str
+    year: int | None
     source: str
-    notes: tuple[str, ...] = ()
+    settings: Callable[..., Tuning] = field(repr=False, compare=False)
+    options: Mapping[str, str] = field(default_factory=dict)
+    required: tuple[str, ...] = ()
+    variant_of: str = ""
+    text: str = field(default="", repr=False)
 
-    @property
-    def K(self) -> float:
-        """Proportional gain [u/y]."""
-        return self.pid.K
+    def __call__(self, *known: Any, **options: Any) -> Tuning:
+        """The settings for a process. known: as for `ProcessData.of`. options: those of the rule.
 
-    @property
-    def Ti(self) -> float:
-        """Integral time [s], inf without integral action."""
-        return self.pid.Ti
+        A process whose gain is negative is tuned with the sign of u turned, and K is turned back.
+        Raises RuleDoesNotApply where the rule does not cover the process, TypeError for an unknown option.
+        """
+        for name in sorted(set(options) - set(self.options)):
+            takes = ", ".join(self.options) or "none"
+            raise TypeError(f"{self.name} has no option {name!r}; its options: {takes}")
+        missing = [name for name in self.required if options.get(name) is None]
+        if missing:
+            raise RuleDoesNotApply(
+                f"{self.name} needs {' and '.join(f'{name}: {self.options[name]}' for name in missing)}"
+            )
+        data = ProcessData.of(*known)
+        given = {name: value for name, value in options.items() if value is not None}
+        try:
+            found = self.settings(data, **given)
+        except RuleDoesNotApply as error:
+            raise self._refused(error, data) from None
+        if data.sign > 0:
+            return found
+        note = "the process answers with the other sign: K is negative"
+        return replace(found, pid=replace(found.pid, K=-found.pid.K), notes=(*found.notes, note))
 
-    @property
-    def Td(self) -> float:
-        """Derivative time [s]."""
-        return self.pid.Td
+    def _refused(self, error: RuleDoesNotApply, data: ProcessData) -> RuleDoesNotApply:
+        """The refusal with the rule's name, and with the rules that take what is known instead."""
+        advice = error.advice
+        wrong = data.integrates is not None and self.integrating not in (None, data.integrates)
+        if not advice and wrong:
+            from loopbook.tuning.registry import rules
 
+            fitting = [r.name for r in rules().values() if r.fits(data.integrates) and r.action == self.action]
+            advice = f"use {', '.join(fitting)}"
+        named = error.reason.lower().startswith(self.name.split("-")[0])
+        return RuleDoesNotApply(error.reason if named else f"{self.name}: {error.reason}", advice)
 
-@cache
-def _functions(name: str):
-    import sympy
+    def fits(self, integrates: bool | None) -> bool:
+        """Is it meant for such a process (True: integrating), no variant of another, and complete without options?"""
+        same = integrates is None or self.integrating in (None, integrates)
+        return same and not self.variant_of and not self.required
 
-    from derivations.tuning.rules import rule
-
-    found = rule(name)
-    return [sympy.lambdify(found.inputs, e, modules="math") for e in (found.K, found.Ti, found.Td)], found
-
-
-def compute(name: str, *inputs: float, notes: tuple[str, ...] = ()) -> Tuning:
-    """The settings of one rule of `derivations.tuning.rules` for numbers in the order of the rule's ``inputs``.
-
-    Raises RuleDoesNotApply where an input is not a positive finite number (a dead time of zero included: every rule
-    that takes one divides by it), KeyError for an unknown rule.
-
-    >>> compute("zn-step-pid", 3, 3.285, 1.005).K.__round__(4)
-    1.3075
-    """
-    from math import inf, isfinite
-
-    from loopbook.controllers.pid_forms import PidStandard
-
-    functions, found = _functions(name)
-    if len(inputs) != len(found.inputs):
-        raise TypeError(f"{name} takes {', '.join(map(str, found.inputs))}; got {len(inputs)} numbers")
-    for symbol, value in zip(found.inputs, inputs, strict=True):
-        if not (isfinite(value) and value > 0):
-            raise RuleDoesNotApply(f"{name}: {symbol} must be a positive number, got {value:g}; source: {found.source}")
-    K, Ti, Td = (float(f(*map(float, inputs))) for f in functions)
-    return Tuning(PidStandard(K=K, Ti=Ti if Ti < inf else inf, Td=Td, c=1.0), name, found.source, notes)
+    def __str__(self) -> str:
+        year = f" ({self.year})" if self.year else ""
+        head = f"{self.title}: {self.action} from {self.takes}; {self.aim or 'no aim stated'}"
+        return "\n".join([head, *(f"    {line}" for line in self.text.splitlines()), f"source: {self.source}{year}"])

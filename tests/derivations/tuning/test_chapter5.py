@@ -7,7 +7,7 @@ import sympy
 
 from derivations.experiments import describing_function, double_pulse, reaction_curve, two_lags
 from derivations.loop import robustness
-from derivations.tuning import amigo
+from derivations.tuning import amigo, amigo_integrating, letters
 
 
 def test_double_pulse_extremes_give_the_process_back():
@@ -118,15 +118,15 @@ def test_stationary_gain_is_the_derivative_along_a_real_process():
     ],
 )
 def test_limits_of_the_step_rules(rule, K, Ti, Td):
-    limit = amigo.integrating_limit(rule)
-    names = {s.name: s for s in (amigo.K_v, amigo.L)}
+    limit = amigo_integrating.integrating_limit(rule)
+    names = {s.name: s for s in (letters.K_v, letters.L)}
     for found, expected in ((limit.K, K), (limit.Ti, Ti), (limit.Td, Td)):
         assert sympy.simplify(found - sympy.sympify(expected, locals=names)) == 0
 
 
 def test_limit_of_the_combined_rule_drops_half_of_its_weights():
-    a, limit = amigo, amigo.integrating_limit(amigo.pid_combined())
-    alpha, beta, gamma = a.SECOND_ORDER.values()
+    a, limit = letters, amigo_integrating.integrating_limit(amigo.pid_combined())
+    alpha, beta, gamma = amigo.SECOND_ORDER.values()
     K = (alpha[1] / a.L_1 + alpha[3] * a.T_2 / a.L_1**2) / a.K_v
     ki = (beta[1] / a.L_1**2 + beta[3] * a.T_2 / a.L_1**3) / a.K_v
     kd = (gamma[1] + gamma[3] * a.T_2 / a.L_1) / a.K_v
@@ -134,6 +134,6 @@ def test_limit_of_the_combined_rule_drops_half_of_its_weights():
 
 
 def test_filter_adjustment_keeps_the_sum_of_lags():
-    a = amigo
+    a = letters
     for data in ({a.T: a.T, a.L: a.L}, {a.T_1: a.T_1, a.T_2: a.T_2, a.L_1: a.L_1}):
-        assert sympy.simplify(sum(a.with_filter(data).values()) - sum(data.values()) - a.T_f) == 0
+        assert sympy.simplify(sum(amigo.with_filter(data).values()) - sum(data.values()) - a.T_f) == 0

@@ -16,8 +16,7 @@ from loopbook.design.recommendation import AIMS, AimError, recommend
 from loopbook.documents.pid_report.printed_programs import ProgramController
 from loopbook.loop.continuous import Loop
 from loopbook.numerics.signals import Signal
-from loopbook.tuning import amigo, simc
-from loopbook.tuning.rule import Tuning
+from loopbook.tuning import Tuning, tune
 
 FOPDT = Model(2.0, (10.0,), 3.0, covariance=np.diag([0.03, 0.2, 0.2]) ** 2)
 
@@ -34,8 +33,8 @@ def judged():
 
 def test_rules_get_the_numbers_of_the_model(judged):
     found = {e.candidate.name: e.candidate for e in judged[0]}
-    assert found["SIMC, PI"].pid.K == pytest.approx(simc.settings(2, 10, 3).K)
-    assert found["AMIGO step, PID"].pid.Ti == pytest.approx(amigo.pid_step(FOPDT.step_data).Ti)
+    assert found["SIMC, PI"].pid.K == pytest.approx(tune(FOPDT.process, "simc-pi").K)
+    assert found["AMIGO step, PID"].pid.Ti == pytest.approx(tune(FOPDT.step_data, "amigo-step-pid").Ti)
     assert found["AMIGO step, PID"].pid.Tf == pytest.approx(found["AMIGO step, PID"].pid.Td / 10)
     assert {r.name for r in judged[1]} >= {"SIMC, PID"}
 
@@ -174,7 +173,7 @@ def test_a_process_file_is_read(tmp_path):
     )
     model = read_toml(file)
     assert (model.gain, model.lags, model.delay) == (-2.0, (10.0, 4.0), 3.0)
-    assert model.frequency_data.Ku == 5.0
+    assert model.frequency.Ku == 5.0
     assert model.latex() == r"G(s) = \frac{-2}{(1 + 10 s) (1 + 4 s)} e^{-3 s}"
 
 

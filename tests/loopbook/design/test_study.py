@@ -104,7 +104,7 @@ def test_a_measured_ultimate_point_is_what_the_frequency_rules_get(tmp_path):
         *("AMIGO frequency, PI", "AMIGO frequency, PID"),
     }
     file.write_text(file.read_text() + "[experiment]\nK180 = 0.5\nT180 = 16\n", encoding="utf-8")
-    assert Study(file).model.frequency_data == measured.model.frequency_data
+    assert Study(file).model.frequency == measured.model.frequency
 
 
 @pytest.mark.parametrize("aim", AIMS)

@@ -239,7 +239,7 @@ REFUSED = {
     "never oscillates": (lambda: self_oscillation.run(Plant(Process((1.0,), (1.0, 1.0))), 5), "does not make"),
     "kappa": (
         lambda: combination.solve(StepData(1, 0.1, 1), FrequencyData(1.2, 2.0)),
-        "use amigo.pi_step or amigo.pid_step",
+        "use amigo-step-pi or amigo-step-pid",
     ),
     "no two lags": (lambda: combination.solve(StepData(1, 5, 0.1), FrequencyData(0.5, 1.0)), "no T2/T1"),
     "limits": (lambda: Plant(FOPDT, low=1.0), "working point 0 must lie between"),

@@ -12,7 +12,7 @@ from loopbook.documents.open import printed as load
 from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.by_angles import parameters, pid
-from loopbook.tuning.rule import RuleDoesNotApply
+from loopbook.tuning.result import RuleDoesNotApply
 from notebook_reports.ledger.verdicts import rounds_to
 
 TANK = Process([1 / 8360], [35, 12, 1], 2)

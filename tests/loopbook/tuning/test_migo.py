@@ -8,7 +8,7 @@ import pytest
 from loopbook.documents.pid_report.batch.processes import batch, four_lags
 from loopbook.process.transfer_function import Process
 from loopbook.tuning import migo
-from loopbook.tuning.rule import RuleDoesNotApply
+from loopbook.tuning.result import RuleDoesNotApply
 from notebook_reports.ledger.verdicts import rounds_to
 
 EXAMPLE = four_lags(0.1)

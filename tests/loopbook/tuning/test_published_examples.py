@@ -2,13 +2,15 @@
 
 import math
 
+import numpy as np
 import pytest
 
-from loopbook.experiments.data import StepData
+from loopbook.experiments.data import FrequencyData, StepData
 from loopbook.loop.continuous import Loop
 from loopbook.process.frequency_response import ultimate
 from loopbook.process.transfer_function import Process
-from loopbook.tuning import amigo, migo, simc, ziegler_nichols
+from loopbook.tuning import migo, tune
+from loopbook.tuning.half_rule import half_rule
 from notebook_reports.ledger.verdicts import rounds_to
 
 FOURTH = Process((1.0,), (1.0, 4.0, 6.0, 4.0, 1.0))
@@ -44,7 +46,7 @@ def test_half_rule(name):
     lags, delay, inverse, one, two = HALF_RULE[name]
     for order, printed in ((1, one), (2, two)):
         if printed is not None:
-            kept, effective = simc.half_rule(lags, delay, inverse, order)
+            kept, effective = half_rule(lags, delay, inverse, order)
             assert all(rounds_to(v, p) for v, p in zip((effective, *kept), printed, strict=True)), (effective, kept)
 
 
@@ -78,32 +80,31 @@ SIMC = {
 @pytest.mark.parametrize("name", SIMC)
 def test_simc_settings(name):
     (k, theta, first, second), printed = SIMC[name]
-    if math.isinf(first):
-        tuning = simc.settings_integrating(k, theta, T2=second)
-    else:
-        tuning = simc.settings(k, first, theta, T2=second)
+    slow = (1.0, 0.0) if math.isinf(first) else (first, 1.0)
+    tuning = tune(Process((k,), tuple(np.polymul(slow, (second, 1.0))), theta), "simc", "PID" if second else "PI")
     digits(tuning.pid.series() if second else tuning, *printed)
 
 
 def test_simc_from_the_full_process():
     """E4, E8 and E10 of the same table, from all their lags."""
-    digits(simc.reduced(1, [1, 1, 1, 1], 0), "0.3", "1.5")
-    digits(simc.reduced(1, [math.inf, 1, 1], 0), "0.33", "12")
-    digits(simc.reduced(1, [math.inf, 1, 1], 0, order=2).pid.series(), "1", "4", "1.5")
-    digits(simc.reduced(1, [20, 2], 1, order=2).pid.series(), "10", "8", "2")
+    integrating = Process((1.0,), (1.0, 2.0, 1.0, 0.0))
+    digits(tune(FOURTH, "simc", "PI"), "0.3", "1.5")
+    digits(tune(integrating, "simc", "PI"), "0.33", "12")
+    digits(tune(integrating, "simc", "PID").pid.series(), "1", "4", "1.5")
+    digits(tune(Process((1.0,), (40.0, 22.0, 1.0), 1.0), "simc", "PID").pid.series(), "10", "8", "2")
 
 
 @pytest.mark.parametrize(
-    ("process", "tuning", "printed"),
+    ("process", "rule", "printed"),
     [
-        (Process((1.0,), (5.0, 1.0), 1.0), simc.settings(1, 5, 1), ("3.14", "61.4", "1.59", "1.00", "2.14")),
-        (Process((1.0,), (1.0, 0.0), 1.0), simc.settings_integrating(1, 1), ("2.96", "46.9", "1.70", "1.30", "1.59")),
+        (Process((1.0,), (5.0, 1.0), 1.0), "simc-pi", ("3.14", "61.4", "1.59", "1.00", "2.14")),
+        (Process((1.0,), (1.0, 0.0), 1.0), "simc-pi-integrating", ("2.96", "46.9", "1.70", "1.30", "1.59")),
     ],
     ids=["lag, tau_1 <= 8 theta", "integrating"],
 )
-def test_simc_robustness(process, tuning, printed):
+def test_simc_robustness(process, rule, printed):
     """The paper's table 1 for tau_c = theta: gain margin, phase margin, Ms, Mt, allowed delay error over theta."""
-    m = Loop(process, tuning.pid).margins()
+    m = Loop(process, tune(process, rule)).margins()
     assert all(
         rounds_to(v, p) for v, p in zip((m.gain, m.phase, m.Ms.value, m.Mt.value, m.delay), printed, strict=True)
     )
@@ -115,22 +116,22 @@ def test_direct_synthesis(closed, gain):
 
     SIMC is this method with the integral time bounded; for these two speeds the bound does not bind.
     """
-    digits(simc.settings(2, 10, 1, closed, T2=5), gain, "15", "3.33")
+    digits(tune(Process((2.0,), (50.0, 15.0, 1.0), 1.0), "simc-pid", closed=closed), gain, "15", "3.33")
 
 
 AMIGO = {
     # K. J. Åström, T. Hägglund, Revisiting the Ziegler-Nichols step response method for PID control, J. Process
     # Control 14 (2004) 635-650, the examples 1/(s + 1)^4 and e^-s/(0.05 s + 1)^2, from the printed T and L
-    "balanced, PI": (amigo.pi_step, (2.9, 1.42), ("0.414", "2.66")),
-    "balanced, PID": (amigo.pid_step, (2.9, 1.42), ("1.12", "2.40", "0.619")),
-    "delay dominated, PID": (amigo.pid_step, (0.0932, 1.01), ("0.242", "0.474", "0.119")),
+    "balanced, PI": ("amigo-step-pi", (2.9, 1.42), ("0.414", "2.66")),
+    "balanced, PID": ("amigo-step-pid", (2.9, 1.42), ("1.12", "2.40", "0.619")),
+    "delay dominated, PID": ("amigo-step-pid", (0.0932, 1.01), ("0.242", "0.474", "0.119")),
 }
 
 
 @pytest.mark.parametrize("name", AMIGO)
 def test_amigo_settings(name):
     rule, (T, L), printed = AMIGO[name]
-    digits(rule(StepData(1.0, T, L)), *printed)
+    digits(tune(StepData(1.0, T, L), rule), *printed)
 
 
 def test_what_amigo_starts_from():
@@ -162,7 +163,7 @@ def test_ziegler_nichols():
     a, L = 0.218, 0.806
     steepest = 2 * math.exp(-2)  # of the step response, at t = 2 s
     assert rounds_to(steepest * L, "0.218")
-    digits(ziegler_nichols.step_method(1, L / a, L), "5.50", "1.61", "0.403")
+    digits(tune(StepData(1, L / a, L), "zn-step-pid"), "5.50", "1.61", "0.403")
     point = ultimate(third)
     assert rounds_to(point.K180, "0.125") and rounds_to(point.T180, "3.63")
-    digits(ziegler_nichols.ultimate_method(1 / point.K180, point.T180), "4.8", "1.81")
+    digits(tune(FrequencyData(point.K180, point.T180), "zn-ultimate-pid"), "4.8", "1.81")

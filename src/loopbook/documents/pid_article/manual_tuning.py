@@ -17,6 +17,7 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
 from loopbook.process.transfer_function import Process
 from loopbook.response.step_metrics import sampled
+from loopbook.tuning.by_name import tune
 
 SETTINGS = ("K", "Ti", "Td")
 SAME = 1e-6
@@ -162,11 +163,7 @@ def _pid(K: float, Ti: float, Td: float) -> PidStandard:
 
 
 def _ultimate(process: Process) -> PidStandard:
-    from loopbook.process.frequency_response import ultimate
-    from loopbook.tuning.ziegler_nichols import ultimate_method
-
-    point = ultimate(process)
-    tuning = ultimate_method(1 / point.K180, point.T180, "pid-article")
+    tuning = tune(process, "zn-ultimate-pid-article")
     return _pid(tuning.K, tuning.Ti, tuning.Td)
 
 

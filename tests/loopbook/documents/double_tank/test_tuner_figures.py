@@ -7,10 +7,11 @@ import pytest
 from loopbook.controllers.pid_forms import PidParallel
 from loopbook.documents.double_tank.tuner_figures import SHOWN, agreeing, displayed, structures
 from loopbook.documents.open import printed as load
+from loopbook.experiments.data import FrequencyData
 from loopbook.loop.continuous import Loop
 from loopbook.loop.margins import phase_crossovers
 from loopbook.process.transfer_function import Process
-from loopbook.tuning.ziegler_nichols import ultimate_method
+from loopbook.tuning import tune
 
 TANK = Process([1 / 8360], [35, 12, 1], 2)
 
@@ -41,7 +42,10 @@ def test_no_structure_with_the_four_good_cells_of_ziegler_and_nichols_gives_the_
     values, given = load("double-tank").values, printed("zn")
     gain, w = 10 ** (float(values["gain-margin-of-plant"].printed) / 20), float(values["crossover-of-plant"].printed)
     point = phase_crossovers(Loop(TANK, 1.0).transfer)[0]
-    settings = [ultimate_method(*data).pid for data in ((gain, 2 * math.pi / w), (point.gain, 2 * math.pi / point.w))]
+    settings = [
+        tune(FrequencyData.from_ultimate(*data), "zn-ultimate-pid").pid
+        for data in ((gain, 2 * math.pi / w), (point.gain, 2 * math.pi / point.w))
+    ]
     poles = float(values["zn-filter"].printed), float(values["tuned-N"].printed)
     tried = {name: displayed(Loop(TANK, pid)) for name, pid in structures(*settings, *poles).items()}
     odd = {name: given[name] for name in ("settling", "overshoot")}

@@ -8,8 +8,9 @@ import numpy as np
 from loopbook.documents.pid_report.batch.study import Study, share_within
 from loopbook.experiments.data import StepData
 from loopbook.loop.joint_robustness import joint_M
-from loopbook.tuning import amigo, migo
-from loopbook.tuning.ziegler_nichols import step_method
+from loopbook.tuning import migo
+from loopbook.tuning.filtered_data import with_filter
+from loopbook.tuning.registry import RULES as rules
 
 
 def spread(values: np.ndarray) -> str:
@@ -37,9 +38,9 @@ def joint_with_filter(studies: Sequence[Study], divisor: float = 10.0) -> dict[s
     found: dict[str, list[float]] = {"M": [], "M filter": [], "M adjusted": [], "ki": []}
     for s in studies:
         if isinstance(s.step, StepData):
-            process, plain = s.member.process, amigo.pid_step(s.step)
+            process, plain = s.member.process, rules["amigo-step-pid"](s.step)
             Tf = plain.Td / divisor
-            adjusted = amigo.pid_step(amigo.with_filter(s.step, Tf))
+            adjusted = rules["amigo-step-pid"](with_filter(s.step, Tf))
             found["M"].append(joint_M(process, plain.pid))
             found["M filter"].append(joint_M(process, replace(plain.pid, N=None, Tf=Tf)))
             found["M adjusted"].append(joint_M(process, replace(adjusted.pid, N=None, Tf=Tf)))
@@ -56,7 +57,7 @@ def joint_with_optimal_Td(studies: Sequence[Study]) -> np.ndarray:
 def ziegler_nichols_joint(studies: Sequence[Study]) -> np.ndarray:
     """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
     stable = [s for s in studies if isinstance(s.step, StepData)]
-    return np.array([joint_M(s.member.process, step_method(s.step.Kp, s.step.T, s.step.L).pid) for s in stable])
+    return np.array([joint_M(s.member.process, rules["zn-step-pid"](s.step).pid) for s in stable])
 
 
 def efficiency(studies: Sequence[Study], reached: np.ndarray) -> np.ndarray:

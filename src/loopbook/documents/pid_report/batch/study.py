@@ -15,8 +15,9 @@ from loopbook.experiments import combination, integrating_step, short_pulse, ste
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
 from loopbook.experiments.plant import ExperimentError
 from loopbook.process.frequency_response import ultimate
-from loopbook.tuning import amigo, migo
-from loopbook.tuning.rule import RuleDoesNotApply, Tuning
+from loopbook.tuning import migo
+from loopbook.tuning.registry import RULES as rules
+from loopbook.tuning.result import RuleDoesNotApply, Tuning
 
 OPTIMUM = {"PI": "PI MIGO", "PID": "PID MIGO"}
 RULES = ("PI step", "PID step", "PI frequency", "PID frequency", "PID combined")
@@ -58,18 +59,20 @@ def study(member: Member, optimum: bool = True) -> Study:
     missed = 0.0
     if member.integrates:
         data = integrating_step.exact(process)
-        settings["PI step"], settings["PID step"] = amigo.pi_step_integrating(data), amigo.pid_step_integrating(data)
-        settings["PID combined"] = amigo.pid_combined_integrating(short_pulse.exact(process))
+        for action in ("PI", "PID"):
+            settings[f"{action} step"] = rules[f"amigo-step-{action.lower()}-integrating"](data)
+        settings["PID combined"] = rules["amigo-combined-pid-integrating"](short_pulse.exact(process))
     else:
         data = step.exact(process)
-        settings["PI step"], settings["PID step"] = amigo.pi_step(data), amigo.pid_step(data)
+        settings["PI step"], settings["PID step"] = rules["amigo-step-pi"](data), rules["amigo-step-pid"](data)
         try:
             lags, missed = combination.nearest(data, frequency)
-            settings["PID combined"] = amigo.pid_combined(lags, data.tau)
+            settings["PID combined"] = rules["amigo-combined-pid"](lags, tau=data.tau)
         except (ExperimentError, RuleDoesNotApply) as error:
             missing["PID combined"] = str(error)
-    for name, rule in (("PI frequency", amigo.pi_frequency), ("PID frequency", amigo.pid_frequency)):
-        settings[name] = rule(frequency, process.static_gain, extrapolate=True)
+    for action in ("PI", "PID"):
+        rule = rules[f"amigo-frequency-{action.lower()}"]
+        settings[f"{action} frequency"] = rule(frequency, Kp=process.static_gain, extrapolate=True)
     return Study(member, data, frequency, settings, missing, missed)
 
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 from loopbook.experiments.data import StepData, TwoLagData
-from loopbook.tuning.rule import RuleDoesNotApply
+from loopbook.tuning.result import RuleDoesNotApply
 
 
 def with_filter(data: Any, Tf: float) -> Any:

@@ -1,0 +1,71 @@
+"""Chien, Hrones and Reswick: from a step response, for no overshoot or for 20 %, and which type to take.
+
+For changes of the set-point. The overshoot is an aim, not a guarantee: it was found on the process of the authors'
+simulator with the PID's derivative on the error.
+"""
+
+from functools import cache
+from typing import Any
+
+import sympy as sp
+from sympy import Rational
+
+from derivations.tuning.letters import T_0, T, a, k
+from derivations.tuning.rule import Caution, Rule
+from derivations.tuning.takes import Takes
+from derivations.tuning.ziegler_nichols import ARTICLE
+
+PAPER = "K. L. Chien, J. A. Hrones and J. B. Reswick, On the automatic control of generalized passive systems (1952)"
+TYPES = ("p", "pi", "pid")
+BOUNDS = {"higher order": (0, 3), "pid": (3, Rational(15, 2)), "pi": (Rational(15, 2), 10), "p": (10, sp.oo)}
+"""The type that the article's table gives for low < R < high; R = 3, 7.5 and 10 belong to no row."""
+
+
+def types(R: Any) -> tuple[str, ...]:
+    """The types of regulator that the table names for R = T/T0: one, or at a border the two beside it.
+
+    The borders are left open in print; both neighbours are returned because either is as good.
+
+    >>> types(Rational(16, 5)), types(Rational(15, 2))
+    (('pid',), ('pid', 'pi'))
+    """
+    return tuple(name for name, (low, high) in BOUNDS.items() if low <= R <= high)
+
+
+def _cautions(kind: str) -> tuple[Caution, ...]:
+    """One for each other row of the table of types."""
+    R = T / T_0
+    text = "R = T/T0 = {R:.4g}: by this ratio the method's own table takes "
+    return tuple(
+        Caution(
+            sp.And(low < R, R < high), text + (other.upper() if other in TYPES else f"a regulator of {other}"), {"R": R}
+        )
+        for other, (low, high) in BOUNDS.items()
+        if other != kind
+    )
+
+
+@cache
+def rules() -> tuple[Rule, ...]:
+    """Without overshoot and with 20 %, each P, PI and PID."""
+    source = f"{PAPER}; {ARTICLE}, tables of the Chien-Hrones-Reswick method"
+    formulas = {
+        (0, "p"): (Rational(3, 10) / a,),
+        (0, "pi"): (Rational(35, 100) / a, Rational(6, 5) * T),
+        (0, "pid"): (Rational(6, 10) / a, T, T_0 / 2),
+        (20, "p"): (Rational(7, 10) / a,),
+        (20, "pi"): (Rational(6, 10) / a, T),
+        (20, "pid"): (Rational(95, 100) / a, Rational(14, 10) * T, Rational(47, 100) * T_0),
+    }
+    return tuple(
+        Rule(
+            f"chr-{kind}-{overshoot}",
+            f"Chien-Hrones-Reswick {overshoot} %, {kind.upper()}",
+            *(Takes.STEP, (k, T, T_0), *settings),
+            source=source,
+            year=1952,
+            aim=f"set-point: {f'{overshoot} % overshoot' if overshoot else 'no overshoot'}",
+            cautions=_cautions(kind),
+        )
+        for (overshoot, kind), settings in formulas.items()
+    )

@@ -1,0 +1,65 @@
+"""Lambda tuning: pole cancellation with a wanted closed-loop time constant.
+
+lambda-pi, lambda-pid: for a lag with dead time, the PID row with exp(-sL) by Padé of order 1. Robust for lambda >= T0;
+slow for loads where T is much longer than T0.
+first-order-pi: Ti = T without dead time; lambda is the closed loop's time constant, exactly, as
+`derivations.loop.first_order_loop` derives. first-order-pi-script: the same with lambda = i T, the dimensionless i that
+the article's script runs through.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from derivations.tuning.letters import T_0, T, k, lam
+from derivations.tuning.rule import Caution, Rule
+from derivations.tuning.takes import Takes
+from derivations.tuning.ziegler_nichols import ARTICLE
+
+SOURCE = "E. B. Dahlin, Designing and tuning digital controllers (1968); Åström and Hägglund, Advanced PID Control"
+AIM = "set-point: a wanted time constant"
+SLOW = Caution(
+    T > 8 * T_0, "T = {T:.4g} s is longer than 8 T0: the integral action is slow for loads; SIMC shortens it"
+)
+AGGRESSIVE = Caution(
+    lam < T_0, "closed = {closed:.4g} s is shorter than T0 = {L:.4g} s: little robustness against a longer dead time"
+)
+MODE = Caution(lam < T, "a load's effect decays with T = {T:g} s although the set-point response has {closed:g} s")
+DEAD_TIME = Caution(
+    sp.Gt(T_0, 0, evaluate=False),
+    "the process has a dead time of {L:.4g} s and the rule is for a lag without one",
+    advice="use lambda-pi",
+)
+i = sp.Symbol("i", positive=True)
+
+
+@cache
+def rules() -> tuple[Rule, ...]:
+    """PI and PID for a lag with dead time, and PI for a lag alone."""
+    x = (k, T, T_0, lam)
+    dead = {
+        "source": SOURCE,
+        "year": 1968,
+        "aim": AIM,
+        "cautions": (SLOW, AGGRESSIVE),
+        "defaults": {lam: sp.Max(T, T_0)},
+    }
+    alone = {"aim": AIM, "refusals": (DEAD_TIME,)}
+    half = T_0 / 2
+    pid = ((half + T) / (k * (half + lam)), T + half, T * T_0 / (T_0 + 2 * T))
+    return (
+        Rule("lambda-pi", "lambda, PI", Takes.STEP, x, T / (k * (lam + T_0)), T, **dead),
+        Rule("lambda-pid", "lambda, PID", Takes.STEP, x, *pid, **dead),
+        Rule(
+            *("first-order-pi", "pole cancellation, PI", Takes.STEP, (k, T, lam), T / (lam * k), T),
+            source=f"{ARTICLE}, section on the first-order plant",
+            cautions=(MODE,),
+            **alone,
+        ),
+        Rule(
+            *("first-order-pi-script", "pole cancellation, PI", Takes.STEP, (k, T, i), T / (i * T * k), T),
+            source=f"{ARTICLE}, file pid_script1.m",
+            variant_of="first-order-pi",
+            **alone,
+        ),
+    )

@@ -1,0 +1,66 @@
+"""Ziegler and Nichols: from a step response, or from the gain and period at which a proportional loop oscillates.
+
+The article prints Ti = 3 T0 for PI where the paper has T0/0.3 = 3.33 T0; 0.85 Tu where it has Tu/1.2, and 0.12 Tu where
+it has Tu/8. Both are here.
+"""
+
+from dataclasses import replace
+from functools import cache
+
+import sympy as sp
+from sympy import Rational
+
+from derivations.tuning.letters import T_0, K_u, T, T_u, a, k
+from derivations.tuning.rule import Caution, Rule
+from derivations.tuning.takes import Takes
+
+ARTICLE = "pid-article"
+PAPER = "J. G. Ziegler and N. B. Nichols, Optimum settings for automatic controllers, Trans. ASME 64 (1942)"
+AIM = "load: a quarter decay ratio"
+RANGE = Caution(
+    sp.Or(T_0 / T < Rational(1, 10), T_0 / T > 1),
+    "T0/T = {ratio:.3g} lies outside 0.1 to 1, the range the rule was found on",
+    {"ratio": T_0 / T},
+)
+
+
+@cache
+def rules() -> tuple[Rule, ...]:
+    """From the model k e^(-s T0)/(1 + s T), then from the ultimate point; P, PI, PID and the article's variants."""
+    article = f"{ARTICLE}, table of the step-response method"
+
+    def step(name: str, title: str, source: str, *formulas: sp.Expr) -> Rule:
+        title = f"Ziegler-Nichols step, {title}"
+        return Rule(
+            name, title, Takes.STEP, (k, T, T_0), *formulas, source=source, year=1942, aim=AIM, cautions=(RANGE,)
+        )
+
+    pi = step("zn-step-pi", "PI", PAPER, Rational(9, 10) / a, T_0 / Rational(3, 10))
+    by_step = (
+        step("zn-step-p", "P", f"{PAPER}; {article}", 1 / a),
+        pi,
+        step("zn-step-pid", "PID", f"{PAPER}; {article}", Rational(6, 5) / a, 2 * T_0, T_0 / 2),
+        replace(pi, name="zn-step-pi-article", source=article, Ti=3 * T_0, variant_of=pi.name),
+    )
+    return by_step + _ultimate()
+
+
+def _ultimate() -> tuple[Rule, ...]:
+    article = f"{ARTICLE}, table of the ultimate-gain method"
+
+    def ultimate(name: str, title: str, source: str, *formulas: sp.Expr) -> Rule:
+        title = f"Ziegler-Nichols ultimate, {title}"
+        return Rule(
+            *(name, title, Takes.FREQUENCY, (K_u, T_u), *formulas), source=source, year=1942, aim=AIM, integrating=None
+        )
+
+    pi = ultimate("zn-ultimate-pi", "PI", PAPER, Rational(9, 20) * K_u, T_u / Rational(6, 5))
+    tank = f"{PAPER}; double-tank, section on PID"
+    pid = ultimate("zn-ultimate-pid", "PID", tank, Rational(3, 5) * K_u, T_u / 2, T_u / 8)
+    return (
+        ultimate("zn-ultimate-p", "P", f"{PAPER}; {article}", K_u / 2),
+        pi,
+        pid,
+        replace(pi, name=f"{pi.name}-article", source=article, Ti=Rational(85, 100) * T_u, variant_of=pi.name),
+        replace(pid, name=f"{pid.name}-article", source=article, Td=Rational(12, 100) * T_u, variant_of=pid.name),
+    )

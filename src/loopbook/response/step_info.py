@@ -1,0 +1,66 @@
+"""Rise, settling and overshoot of whatever has a step response, in a named convention."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from loopbook.loop.continuous import Loop, StepResponse
+from loopbook.loop.sampled import SampledLoop
+from loopbook.loop.without_dead_time import time_to_settle
+from loopbook.numerics.signals import Signal
+from loopbook.numerics.step_response import open_loop_step
+from loopbook.process.transfer_function import Process
+from loopbook.response.simulation import Simulation
+from loopbook.response.step_metrics import BAND, StepMetrics, StepMetricsError, exact, sampled
+
+POINTS = 1000
+SETTLED = 1e-6  # what is left of the slowest mode of a sampled loop
+
+
+def step_info(
+    system: Any, t: Sequence[float] | None = None, *, convention: str = "exact", final: float | None = None,
+    band: float = BAND,
+) -> StepMetrics:  # fmt: skip
+    """Step metrics of a process, a loop, a response or of samples.
+
+    system: a `Process` or `Loop` (its step response; of a loop that to the reference), a `SampledLoop`, a
+    `StepResponse`, a `Simulation`, or samples of y at the times t [s]. convention: "exact" (continuous response, true
+    final value) or "sampled" (MATLAB's stepinfo; of a continuous response at t, by default 1,000 intervals up to twice
+    the exact settling time); samples are always "sampled". final: the final value of samples, by default the last.
+    band: of the settling time, as a part of the step.
+    Raises StepMetricsError where there is no such response or it does not settle.
+
+    >>> info = step_info(Process.fopdt(2, 10, 3))
+    >>> round(info.rise, 4), round(info.settling, 4), info.overshoot
+    (21.9722, 42.1202, 0.0)
+    """
+    if convention not in ("exact", "sampled"):
+        raise StepMetricsError(f"convention = {convention!r}: exact or sampled")
+    if isinstance(system, Simulation):
+        return sampled(system.y, system.t, final, band)
+    if not isinstance(system, Process | Loop | SampledLoop | StepResponse):
+        return sampled(system, t, final, band)
+    y, value = _response(system)
+    found = exact(y, value, y.end, band=band)
+    if convention == "exact":
+        return found
+    until = min(2 * max(found.settling, found.peak_time), y.end)
+    times = np.linspace(0.0, until, POINTS + 1) if t is None else np.asarray(t, dtype=float)
+    return sampled(y(times), times, final, band)
+
+
+def _response(system: Any) -> tuple[Signal, float]:
+    """The step response until it has settled, and its final value."""
+    if isinstance(system, Process):
+        return open_loop_step(system, time_to_settle(system)).delayed(system.delay), system.static_gain
+    if isinstance(system, SampledLoop):
+        if not system.is_stable:
+            raise StepMetricsError("the loop is not stable: its step response does not settle")
+        slowest = max(abs(system.poles).max(initial=0.0), 0.1)
+        steps = 30 + 2 * system.sampled.whole + int(np.ceil(np.log(SETTLED) / np.log(slowest)))
+        n, d = (float(np.sum(row)) for row in system.transfer)
+        gain = float(np.sum(system.regulator.T) * np.sum(system.sampled.num))
+        return system.step("reference", steps).between, gain / (n + d)
+    response = system.step("reference") if isinstance(system, Loop) else system
+    return response.y.until(min(response.horizon, response.y.end)), response.final[0]
