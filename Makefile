@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all test check help doctor clean notebooks lint format bench verify mutants design lock
+.PHONY: all test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -27,16 +27,19 @@ NEEDS_PYTHON = $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3,))' >/de
 	    echo "loopbook needs Python 3.11 or newer, and $(PYTHON) does not run: make PYTHON=/path/to/python3"; exit 3; }
 
 all: $(READY) ## run all notebooks and write all reports (the default)
-	@$(BIN)/loopbook build $(jobs)
+	@$(BIN)/loopbook --root . build $(jobs) $(if $(FROZEN),--frozen)
 
 test: $(READY) ## run the whole test suite
-	@$(BIN)/python -m pytest -n auto --dist loadgroup
+	@$(BIN)/python -m pytest -n auto --dist loadfile
+
+quick: $(READY) ## while you work: no kernel, no compiler, nothing that takes long
+	@$(BIN)/python -m pytest -n auto --dist loadfile --quick
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 check: $(READY) ## the ledger in a terminal: what holds, and every row that does not
-	@$(BIN)/loopbook check
+	@$(BIN)/loopbook --root . check
 
 doctor: ## say what of the environment is as it should be; changes nothing
 	@$(NEEDS_PYTHON)
@@ -45,22 +48,28 @@ doctor: ## say what of the environment is as it should be; changes nothing
 notebooks: $(READY) ## open JupyterLab on the project's kernel
 	@MATPLOTLIBRC="$(CURDIR)/src/notebook_reports/run/matplotlibrc" $(BIN)/jupyter lab notebooks
 
-design: $(READY) ## a regulator for your own process: make design DATA=record.csv [REPORT=report.pdf]
-	@test -n "$(DATA)" || { echo "make design needs a record or a model: make design DATA=record.csv"; exit 2; }
-	@$(BIN)/loopbook design "$(DATA)" $(if $(REPORT),-o "$(REPORT)")
+prove-design: $(READY) ## design for 300 synthetic records and run every loop on its true process
+	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench
 
-verify: $(READY) ## build twice in two folders and compare every byte
-	@$(BIN)/loopbook verify
+verify: $(READY) ## build twice under other folders, homes, users, languages and compare every byte
+	@$(BIN)/loopbook --root . verify
 
-mutants: $(READY) ## alter printed digits and rule constants and count what the checks catch
+chaos: $(READY) ## faults at random during builds: what is wrong, what is not mended
+	@$(BIN)/python tools/chaos.py
+
+mutants: $(READY) ## alter printed digits, words of statements and derivations, and count what the checks catch
 	@$(BIN)/python tools/mutants.py
 
-lint: $(READY) ## what is not formatted, not clean or not cleared; changes nothing
+prove: $(READY) ## the emitted controllers against the references, 100,000 samples each (SAMPLES=...)
+	@$(BIN)/python tests/loopbook/code/proof/prove.py $(or $(SAMPLES),100000)
+
+lint: $(READY) ## what is not formatted, clean, typed or cleared; changes nothing
 	@$(BIN)/ruff format --check --quiet $(SOURCES)
 	@$(BIN)/ruff check --quiet $(SOURCES)
+	@$(BIN)/mypy --no-error-summary
 	@$(BIN)/python tools/clear_outputs.py --check notebooks
 
 format: $(READY) ## format, mend, clear the notebooks' outputs

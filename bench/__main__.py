@@ -1,6 +1,7 @@
-"""Run the benches named, or all, and print one table for each."""
+"""Run the benches named, or all, and print one table for each; a folder is what the bench before it measures."""
 
 import importlib
+import itertools
 import os
 import platform
 import sys
@@ -24,6 +25,8 @@ def shown(measured: float | str) -> str:
 
 
 def main(chosen: list[str]) -> int:
+    folders = {name: folder for name, folder in itertools.pairwise(chosen) if Path(folder).is_dir()}
+    chosen = [name for name in chosen if name not in folders.values()]
     unknown = set(chosen) - set(names())
     if unknown:
         print(f"no bench {', '.join(sorted(unknown))}; there are {', '.join(names())}")
@@ -32,7 +35,7 @@ def main(chosen: list[str]) -> int:
     for name in chosen or names():
         module = importlib.import_module(f"bench.bench_{name}")
         print(f"\n{module.__doc__.splitlines()[0]}", flush=True)
-        for what, measured, remark in module.rows():
+        for what, measured, remark in module.rows(*[folders[name]] if name in folders else []):
             print(f"  {what:58} {shown(measured):>10}  {remark}", flush=True)
     return 0
 

@@ -46,7 +46,7 @@ def main(folder):
         return worst
     sys.stdout.flush()
     done = subprocess.run(
-        [os.path.join(folder, "bin", "python"), "-m", "loopbook.cli", "doctor"], stderr=subprocess.PIPE
+        [os.path.join(folder, "bin", "python"), "-m", "loopbook.cli", "--root", ".", "doctor"], stderr=subprocess.PIPE
     )
     said = done.stderr.decode("utf-8", "replace").strip().splitlines()
     if done.returncode not in (0, 3):

@@ -25,8 +25,8 @@ TABLE = {
     "tf": "loopbook.process.construct:tf",
     "sample": "loopbook.process.sampled:sample",
     "c2d": "loopbook.process.sampled:sample",
-    "to_control": "loopbook.process.interop:to_control",
-    "from_control": "loopbook.process.interop:from_control",
+    "to_control": "loopbook.controllers.interop:to_control",
+    "from_control": "loopbook.controllers.interop:from_control",
     # what controls it
     "PidStandard": "loopbook.controllers.pid_forms:PidStandard",
     "PidParallel": "loopbook.controllers.pid_forms:PidParallel",
@@ -44,7 +44,7 @@ TABLE = {
     "nyquist": "loopbook.loop.diagrams:nyquist",
     "compare": "loopbook.loop.compare:compare",
     "simulate": "loopbook.response.simulation:simulate",
-    "step_info": "loopbook.response.step_info:step_info",
+    "step_info": "loopbook.loop.step_info:step_info",
     # how its controller is found
     "tune": "loopbook.tuning.by_name:tune",
     "Tuning": "loopbook.tuning.result:Tuning",
@@ -56,8 +56,10 @@ TABLE = {
     "TwoLagData": "loopbook.experiments.data:TwoLagData",
     "IntegratingPulseData": "loopbook.experiments.data:IntegratingPulseData",
     "Record": "loopbook.records.record:Record",
-    "read_csv": "loopbook.records.reading:read_csv",
+    "read_csv": "loopbook.records.reading:read_record",
     "identify": "loopbook.identification.arrays:identify",
+    # what an answer in words is
+    "LoopbookError": "derivations.errors:LoopbookError",
     # by subject
     "tuning": "loopbook.tuning",
     "experiments": "loopbook.experiments",

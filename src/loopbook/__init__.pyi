@@ -1,10 +1,13 @@
 """The names of `loopbook.TABLE` for editors and type checkers; a test holds the two together."""
 
+from derivations.errors import LoopbookError as LoopbookError
 from loopbook import design as design
 from loopbook import documents as documents
 from loopbook import experiments as experiments
 from loopbook import plots as plots
 from loopbook import tuning as tuning
+from loopbook.controllers.interop import from_control as from_control
+from loopbook.controllers.interop import to_control as to_control
 from loopbook.controllers.on_off import OnOff as OnOff
 from loopbook.controllers.pid import Pid as Pid
 from loopbook.controllers.pid_forms import PidParallel as PidParallel
@@ -25,19 +28,17 @@ from loopbook.loop.diagrams import bode as bode
 from loopbook.loop.diagrams import margins as margins
 from loopbook.loop.diagrams import nyquist as nyquist
 from loopbook.loop.sampled import SampledLoop as SampledLoop
+from loopbook.loop.step_info import step_info as step_info
 from loopbook.pole_placement.place import place as place
 from loopbook.process.construct import tf as tf
-from loopbook.process.interop import from_control as from_control
-from loopbook.process.interop import to_control as to_control
 from loopbook.process.sampled import SampledProcess as SampledProcess
 from loopbook.process.sampled import sample as c2d
 from loopbook.process.sampled import sample as sample
 from loopbook.process.transfer_function import DelayedSum as DelayedSum
 from loopbook.process.transfer_function import Process as Process
-from loopbook.records.reading import read_csv as read_csv
+from loopbook.records.reading import read_record as read_csv
 from loopbook.records.record import Record as Record
 from loopbook.response.simulation import simulate as simulate
-from loopbook.response.step_info import step_info as step_info
 from loopbook.tuning.by_name import tune as tune
 from loopbook.tuning.result import Tuning as Tuning
 
@@ -48,6 +49,7 @@ __all__ = [
     "IntegratingPulseData",
     "IntegratingStepData",
     "Loop",
+    "LoopbookError",
     "OnOff",
     "Pid",
     "PidParallel",

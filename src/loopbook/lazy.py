@@ -1,5 +1,6 @@
 """Names that are imported when they are first asked for (PEP 562): a package's face decides them in one table."""
 
+import difflib
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
@@ -18,8 +19,6 @@ def attach(package: str, table: Mapping[str, str]) -> tuple[Callable[[str], Any]
 
     def ask(name: str) -> Any:
         if name not in table:
-            import difflib
-
             near = difflib.get_close_matches(name, table, n=3)
             hint = f"; did you mean {' or '.join(near)}?" if near and not name.startswith("_") else ""
             raise AttributeError(f"module {package!r} has no attribute {name!r}{hint}", name=name, obj=None)

@@ -1,7 +1,9 @@
 """A question without a sound answer, refused in words for readers of a report and with advice for programmers."""
 
+from derivations.errors import LoopbookError
 
-class Refusal(ValueError):
+
+class Refusal(LoopbookError):
     """reason: what is wrong and what to do, in the field's words. advice: the function or option that does it.
 
     The message has both.

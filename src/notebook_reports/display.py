@@ -4,7 +4,8 @@ Each object displays itself in Jupyter (HTML, LaTeX, SVG) and puts the same cont
 its own into the cell's output. The exporters read only that data, so a table is a table in the PDF too.
 
 A cell of a table, a caption and a note are *inline text*: plain characters with mathematics between ``$`` signs
-and code between backticks. Nothing else is markup; a literal dollar sign is written ``\\$``.
+and code between backticks. Nothing else is markup. A dollar sign and a backtick that are meant are written with a
+backslash before them, as `literal` does.
 """
 
 import html
@@ -35,6 +36,15 @@ def number(value: float, digits: int = 5) -> str:
     return text.replace("-", "−").replace("inf", "∞")
 
 
+def literal(text: str) -> str:
+    r"""Plain characters, such as a name from data, as inline text: nothing in them is mathematics or code.
+
+    >>> literal("$x^2$ in `W`")
+    '\\$x^2\\$ in \\`W\\`'
+    """
+    return text.replace("$", "\\$").replace("`", "\\`")
+
+
 @dataclass(frozen=True)
 class Table:
     """A table with a caption.
@@ -53,7 +63,7 @@ class Table:
     marks: Sequence[str] = ()
     extra: dict[str, Any] = field(default_factory=dict)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         cells = [[c if isinstance(c, str) else number(c) for c in row] for row in self.rows]
         for i, row in enumerate(cells):
             if len(row) != len(self.columns):
@@ -162,7 +172,7 @@ class Figure:
     caption: str
     alt: str
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("caption", "alt"):
             if not getattr(self, name).strip():
                 raise ValueError(f"a figure needs a {name}: one sentence that says what it shows")

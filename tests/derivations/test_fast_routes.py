@@ -13,6 +13,8 @@ from derivations.pid.rc_filter import R, Tf, filter_law
 from derivations.plants import gain_scheduling
 from derivations.tuning import amigo, amigo_integrating, letters, pid_by_angles
 
+pytestmark = pytest.mark.long
+
 a, b, start = symbols("a b start")
 
 

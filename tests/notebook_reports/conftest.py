@@ -66,12 +66,12 @@ class Bench:
         path.write_text(text, encoding="utf-8")
         return path
 
-    def export(self, content, format, notebook, title, engine) -> bytes:
+    def export(self, content, format, notebook, title) -> bytes:
         self.exported.append(f"{notebook.id}.{format}")
-        return json.dumps([format, title, engine, content], sort_keys=True).encode()
+        return json.dumps([format, title, content], sort_keys=True).encode()
 
     def build(self, *names: str, parameters=(), formats=("html",), exporter=None, **options):
-        wanted = {k: options.pop(k) for k in ("engine", "output", "force", "timeout") if k in options}
+        wanted = {k: options.pop(k) for k in ("output", "force", "timeout") if k in options}
         self.exported.clear()
         out = io.StringIO()
         wish = Wanted(tuple(formats), exporter=exporter or self.export, **wanted)

@@ -196,6 +196,7 @@ def test_what_is_set_for_uv_stays(monkeypatch):
 
 
 @pytest.mark.skipif(not UV.exists(), reason="this environment was made by pip, uv does not run here")
+@pytest.mark.long
 def test_uv_asks_the_index_that_pip_is_configured_for(tmp_path, monkeypatch):
     wheel = tmp_path / "simple" / "tiny" / "tiny-1.0-py3-none-any.whl"
     wheel.parent.mkdir(parents=True)

@@ -93,6 +93,6 @@ def test_no_folder_of_tests_is_left_out(request):
 
 
 def test_the_mutants_find_what_to_alter():
-    values, constants = mutants.value_mutants(ROOT), mutants.constant_mutants(ROOT)
+    values, constants = list(mutants.value_mutants(ROOT)), list(mutants.derivation_mutants(ROOT))
     assert {m.what.split(",")[0] for m in values} == {"double-tank", "pid-article", "pid-report"}
     assert len(values) > 500 and len(constants) > 500

@@ -8,11 +8,13 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from derivations.errors import LoopbookError
+
 Z = sp.Symbol("z")
 K = sp.Symbol("k", integer=True)
 
 
-class DelayPolynomialError(ValueError):
+class DelayPolynomialError(LoopbookError):
     """An expression is not an exact polynomial in z^-1. Attributes: name (of the polynomial), expression."""
 
     def __init__(self, name: str, expression: sp.Expr, why: str):
@@ -29,7 +31,7 @@ def coefficients(expression: sp.Expr, name: str = "polynomial", z: sp.Symbol = Z
     >>> coefficients((1 - Z**-1) * (1 + Z**-2))
     [1, -1, 1, -1]
     """
-    expression = sp.sympify(expression)
+    expression = sp.sympify(expression, strict=True)
     if expression.has(sp.Float):
         value = min(expression.atoms(sp.Float), key=str)
         text = str(sp.Float(value, 15)).rstrip("0")
@@ -46,7 +48,7 @@ def coefficients(expression: sp.Expr, name: str = "polynomial", z: sp.Symbol = Z
         raise DelayPolynomialError(
             name, expression, f"must be a polynomial in {z}^-1 (powers {z}^0, {z}^-1, {z}^-2, ...), not in {z}"
         )
-    return _trimmed([sp.sympify(c) for c in reversed(sp.Poly(in_w, w).all_coeffs())])
+    return _trimmed([sp.sympify(c, strict=True) for c in reversed(sp.Poly(in_w, w).all_coeffs())])
 
 
 def _trimmed(values: list[sp.Expr]) -> list[sp.Expr]:
@@ -74,7 +76,7 @@ def polynomial(values: Sequence[sp.Expr], z: sp.Symbol = Z) -> sp.Expr:
     >>> polynomial([1, 0, 3])
     1 + 3/z**2
     """
-    return sp.Add(*(sp.sympify(c) * z**-i for i, c in enumerate(values)))
+    return sp.Add(*(sp.sympify(c, strict=True) * z**-i for i, c in enumerate(values)))
 
 
 def in_delays(transfer: sp.Expr, z: sp.Symbol = Z) -> tuple[sp.Expr, sp.Expr]:
@@ -86,7 +88,7 @@ def in_delays(transfer: sp.Expr, z: sp.Symbol = Z) -> tuple[sp.Expr, sp.Expr]:
     >>> in_delays((2 * Z + 1) / (2 * Z**2 - Z))
     (1 - 1/(2*z), 1/z + 1/(2*z**2))
     """
-    transfer = sp.sympify(transfer)
+    transfer = sp.sympify(transfer, strict=True)
     num, den = sp.fraction(sp.cancel(sp.together(transfer)))
     if not (num.is_polynomial(z) and den.is_polynomial(z)):
         raise DelayPolynomialError("transfer function", transfer, f"must be a rational function of {z}")

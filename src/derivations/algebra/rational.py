@@ -7,8 +7,10 @@ one fraction; it is zero where its multiplied-out numerator is, and a linear equ
 from sympy import Expr, Mul, S, expand, factor, fraction, simplify, together
 from sympy.core.function import AppliedUndef
 
+from derivations.errors import LoopbookError
 
-class NotLinear(ValueError):
+
+class NotLinear(LoopbookError):
     """An equation is not linear in the unknown, or does not hold it. Attributes: left, right, unknown."""
 
     def __init__(self, left: Expr, right: Expr, unknown: Expr):

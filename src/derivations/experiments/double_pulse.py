@@ -31,7 +31,7 @@ class Extremes:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class PulseFormulas:
     """The process in terms of the two extremes; L once from each extreme."""
 
     K_p: Expr
@@ -58,7 +58,7 @@ def extremes() -> Extremes:
 
 
 @cache
-def estimate() -> Estimate:
+def estimate() -> PulseFormulas:
     """The extremes solved for the process.
 
     The ratio y_min/y_max = -(1 - e^(-T_p/T)) does not hold K_p: it gives T; y_max then gives K_p.
@@ -72,7 +72,7 @@ def estimate() -> Estimate:
     top, bottom = (e.subs(exp(-T_p / T), remains) for e in (top, bottom))
     (left,) = sympy.solve(sympy.cancel(bottom / top) - y_min / y_max, remains)
     (gain,) = sympy.solve(top.subs(remains, left) - y_max, K_p)
-    return Estimate(
+    return PulseFormulas(
         K_p=sympy.simplify(gain),
         T=-T_p / log(sympy.expand(left)),
         L_from_max=sympy.solve(found.t_max - t_max, L)[0],

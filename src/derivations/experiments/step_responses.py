@@ -15,6 +15,7 @@ t = Symbol("t", nonnegative=True)
 s = Symbol("s")
 T = Symbol("T", positive=True)
 T2 = Symbol("T_2", positive=True)
+w0, zeta = Symbol("omega_0", positive=True), Symbol("zeta", positive=True)
 
 
 def unit_step_response(transfer: sympy.Expr) -> sympy.Expr:
@@ -64,3 +65,18 @@ def integrator() -> sympy.Expr:
 def integrator_with_lag() -> sympy.Expr:
     """An integrator behind a lag, 1/(s (1 + T s))."""
     return unit_step_response(1 / (s * (1 + T * s)))
+
+
+@cache
+def ringing() -> sympy.Expr:
+    """A pair of complex poles, w0^2/(s^2 + 2 zeta w0 s + w0^2) with zeta < 1.
+
+    The poles -zeta w0 +- i w0 r, r = sqrt(1 - zeta^2), make it 1 - e^(-zeta w0 t) (cos(w0 r t) + zeta/r sin(w0 r t)):
+    the ansatz whose differential equation and start (0, 0) are checked here before it is returned.
+    """
+    r = sympy.sqrt(1 - zeta**2)
+    y = 1 - sympy.exp(-zeta * w0 * t) * (sympy.cos(w0 * r * t) + zeta / r * sympy.sin(w0 * r * t))
+    equation = y.diff(t, 2) + 2 * zeta * w0 * y.diff(t) + w0**2 * y - w0**2
+    if sympy.simplify(equation) != 0 or y.subs(t, 0) != 0 or sympy.simplify(y.diff(t).subs(t, 0)) != 0:
+        raise ArithmeticError("the step response of a pair of complex poles does not solve its equation")
+    return y

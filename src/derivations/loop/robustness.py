@@ -27,7 +27,7 @@ ONE = sympy.S.One
 
 
 @dataclass(frozen=True)
-class Circle:
+class DerivedCircle:
     """A circle around a point of the real axis."""
 
     centre: Expr
@@ -51,18 +51,18 @@ class Branch:
     k_d: Expr
 
 
-def _between(left: Expr, right: Expr) -> Circle:
-    return Circle(sympy.factor((left + right) / 2), sympy.factor((right - left) / 2))
+def _between(left: Expr, right: Expr) -> DerivedCircle:
+    return DerivedCircle(sympy.factor((left + right) / 2), sympy.factor((right - left) / 2))
 
 
 @cache
-def sensitivity_circle() -> Circle:
+def sensitivity_circle() -> DerivedCircle:
     """|1/(1+L)| <= M: outside the circle around -1 of radius 1/M."""
-    return Circle(-ONE, 1 / M)
+    return DerivedCircle(-ONE, 1 / M)
 
 
 @cache
-def complementary_circle() -> Circle:
+def complementary_circle() -> DerivedCircle:
     """|L/(1+L)| <= M: outside the circle with |x/(1+x)| = M at its two real points x.
 
     >>> complementary_circle().centre
@@ -74,7 +74,7 @@ def complementary_circle() -> Circle:
 
 
 @cache
-def joint_circle() -> Circle:
+def joint_circle() -> DerivedCircle:
     """The smallest circle around both.
 
     Its left end is the complementary circle's, -M/(M-1), its right end the sensitivity circle's, -(M-1)/M.

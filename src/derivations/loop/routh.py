@@ -10,12 +10,14 @@ from functools import cache
 import sympy as sp
 from sympy import Expr
 
+from derivations.errors import LoopbookError
+
 s = sp.Symbol("s")
 K = sp.Symbol("K", positive=True)
 omega = sp.Symbol("omega", positive=True)
 
 
-class NoUltimateGain(ValueError):
+class NoUltimateGain(LoopbookError):
     """The proportional loop never reaches the border of stability for a positive gain."""
 
 

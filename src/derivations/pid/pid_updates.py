@@ -18,7 +18,7 @@ u_low, u_high = symbols("u_low u_high", real=True)
 
 
 @dataclass(frozen=True)
-class Term:
+class UpdateLaw:
     """One discrete term: gains (computed when a setting changes) and the equation that runs at each sample."""
 
     gains: dict[Symbol, Expr]
@@ -30,9 +30,9 @@ class Term:
 
 
 @cache
-def proportional() -> Term:
+def proportional() -> UpdateLaw:
     """P(t_k) = K (b y_sp(t_k) - y(t_k)), eq. 4.1: no dynamics, so sampling is all there is."""
-    return Term({}, discretise(law.proportional(), BACKWARD))
+    return UpdateLaw({}, discretise(law.proportional(), BACKWARD))
 
 
 def saturated(value: Expr, low: Expr = u_low, high: Expr = u_high) -> Expr:
@@ -66,35 +66,35 @@ def integral() -> Eq:
 
 
 @cache
-def integral_tracking() -> Term:
+def integral_tracking() -> UpdateLaw:
     """Eqs 4.3 to 4.5: forward difference of the integral with tracking, e written as y_sp - y."""
     raw = update(law.rate(law.integral_tracking()), "I", FORWARD)
     gains, short = name_gains(raw, {p3: at("e"), p4: at("u")})
-    return Term(gains, equality(short.lhs, collect(short.rhs.subs(at("e"), sampled_error()), list(gains))))
+    return UpdateLaw(gains, equality(short.lhs, collect(short.rhs.subs(at("e"), sampled_error()), list(gains))))
 
 
 @cache
-def derivative() -> Term:
+def derivative() -> UpdateLaw:
     """Eqs 4.6 and 4.7: backward difference of D = -K T_d y_f'."""
     raw = update(law.derivative(), "D", BACKWARD)
     gains, short = name_gains(raw, {p5: at("y_f")})
-    return Term(gains, short)
+    return UpdateLaw(gains, short)
 
 
 @cache
-def low_pass() -> Term:
+def low_pass() -> UpdateLaw:
     """Eqs 4.8 and 4.9: backward difference of T_f y_f' = -y_f + y."""
     raw = update(filter_law(), "y_f", BACKWARD)
     gains, short = name_gains(raw, {p1: at("y_f", -1)})
-    return Term(gains, short)
+    return UpdateLaw(gains, short)
 
 
 @cache
-def filtered_derivative() -> Term:
+def filtered_derivative() -> UpdateLaw:
     """Eqs 4.11 to 4.13: backward difference of T_f D_f' = -D_f - K T_d y'."""
     raw = update(law.filtered_derivative(), "D_f", BACKWARD)
     gains, short = name_gains(raw, {p3: at("D_f", -1), p24: at("y", -1)})
-    return Term(gains, equality(short.lhs, short.rhs.expand()))
+    return UpdateLaw(gains, equality(short.lhs, short.rhs.expand()))
 
 
 @cache

@@ -20,10 +20,11 @@ from sympy.polys.constructor import construct_domain
 from sympy.polys.matrices import DomainMatrix
 
 from derivations.algebra.delay_polynomials import Z, coefficients, difference_equation, polynomial
+from derivations.errors import LoopbookError
 from derivations.pole_placement.regulator_degrees import Degrees
 
 
-class PolePlacementError(ValueError):
+class PolePlacementError(LoopbookError):
     """The polynomial equation has no solution, or its data make no plant or no loop."""
 
 
@@ -176,7 +177,7 @@ def place(A: sp.Expr, B: sp.Expr, P: sp.Expr, fixed: sp.Expr = sp.S.One, z: sp.S
     >>> design.closed_loop
     -q/z + 1
     """
-    A, S, B, P = (sp.sympify(p) for p in (A, fixed, B, P))
+    A, S, B, P = (sp.sympify(p, strict=True) for p in (A, fixed, B, P))
     a, s, b, p = (coefficients(e, n, z) for e, n in ((A, "A"), (S, "S"), (B, "B"), (P, "P")))
     for values, name, expression in ((a, "A", A), (s, "S", S), (p, "P", P)):
         if not values or sp.cancel(values[0]) == 0:
@@ -194,14 +195,13 @@ def place(A: sp.Expr, B: sp.Expr, P: sp.Expr, fixed: sp.Expr = sp.S.One, z: sp.S
     common = common.mul_ground(1 / common.eval(0))
     if not P_w.rem(common).is_zero:
         raise CommonFactor(_from_poly(common, z), polynomial(p, z), z)
-    reduced = [_coefficients_of(poly.quo(common)) for poly in (A_prime, B_w, P_w)]
-    n = Degrees(*(len(v) - 1 for v in (a, s, b, p)), common.degree())
-    unknowns, matrix, right = _sylvester(*reduced, n)
+    a_short, b_short, p_short = (_coefficients_of(poly.quo(common)) for poly in (A_prime, B_w, P_w))
+    n = Degrees(len(a) - 1, len(s) - 1, len(b) - 1, len(p) - 1, common.degree())
+    unknowns, matrix, right = _sylvester(a_short, b_short, p_short, n)
     determinant, values = solve_system(matrix, right)
-    design = PolePlacement(
-        *(polynomial(v, z) for v in (a, b, s, p)),
-        _from_poly(common, z), n, unknowns, matrix, right, determinant, dict(zip(unknowns, values, strict=True)), z,
-    )  # fmt: skip
+    A, B, S, P = (polynomial(v, z) for v in (a, b, s, p))
+    solution = dict(zip(unknowns, values, strict=True))
+    design = PolePlacement(A, B, S, P, _from_poly(common, z), n, unknowns, matrix, right, determinant, solution, z)
     if rest := [c for c in coefficients(design.closed_loop - design.P, z=z) if sp.cancel(c) != 0]:
         raise AssertionError(f"the solution does not satisfy A C + B D = P: left over {rest}")
     return design

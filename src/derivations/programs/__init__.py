@@ -1,1 +1,1 @@
-"""Programs of regulators as data: statements, their order, their equivalence."""
+"""Programs as data: what runs in a controller, statement by statement, built from the derived equations."""

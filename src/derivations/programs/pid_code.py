@@ -129,7 +129,7 @@ def in_variables(expr: Expr, gains: Mapping[Symbol, Symbol] | None = None) -> Ex
     return expr.xreplace(_VARIABLES).xreplace(dict(gains or {}))
 
 
-def _gains(part: term.Term, names: Mapping[Symbol, Symbol], labels: Iterable[str]) -> list[Assignment]:
+def _gains(part: term.UpdateLaw, names: Mapping[Symbol, Symbol], labels: Iterable[str]) -> list[Assignment]:
     return [Assignment(names[s], value, label) for (s, value), label in zip(part.gains.items(), labels, strict=True)]
 
 

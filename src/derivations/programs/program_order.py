@@ -6,13 +6,18 @@ Python. The text is never trusted: `plant` and `regulator` return it only after 
 together equal the derived difference equations.
 """
 
+import ast
+import operator
 from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
 from sympy import Expr
 
+from derivations.errors import LoopbookError
 from derivations.programs import positional_pid, two_lag_euler
+
+_ARITHMETIC = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv}
 
 
 @dataclass(frozen=True)
@@ -23,7 +28,7 @@ class Statement:
     text: str
 
 
-class OrderMismatch(ValueError):
+class OrderMismatch(LoopbookError):
     """The statements do not add up to the derived equation; the message shows both."""
 
 
@@ -35,15 +40,21 @@ def composed(statements: tuple[Statement, ...]) -> dict[str, Expr]:
     """
     found: dict[str, Expr] = {}
     for statement in statements:
-        found[statement.target] = sp.sympify(statement.text, locals=found | _symbols(statement.text, found))
+        found[statement.target] = _value(ast.parse(statement.text, mode="eval").body, found)
     return found
 
 
-def _symbols(text: str, known: dict[str, Expr]) -> dict[str, sp.Symbol]:
-    import re
-
-    names = set(re.findall(r"[A-Za-z_]\w*", text)) - set(known)
-    return {n: sp.Symbol(n) for n in names}
+def _value(node: ast.expr, known: dict[str, Expr]) -> Expr:
+    match node:
+        case ast.BinOp(left, sign, right) if type(sign) in _ARITHMETIC:
+            return _ARITHMETIC[type(sign)](_value(left, known), _value(right, known))
+        case ast.UnaryOp(ast.USub(), operand):
+            return -_value(operand, known)
+        case ast.Name(name):
+            return known.get(name, sp.Symbol(name))
+        case ast.Constant(int(number)):
+            return sp.Integer(number)
+    raise ValueError(f"{ast.unparse(node)} is no arithmetic of names and whole numbers")
 
 
 def _proved(statements: tuple[Statement, ...], derived: dict[str, Expr]) -> tuple[Statement, ...]:

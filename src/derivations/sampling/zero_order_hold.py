@@ -19,12 +19,13 @@ import sympy as sp
 
 from derivations.algebra.delay_polynomials import Z, coefficients, polynomial
 from derivations.algebra.rational import factored
+from derivations.errors import LoopbookError
 
 S = sp.Symbol("s")
 T = sp.Symbol("t", positive=True)
 
 
-class SamplingError(ValueError):
+class SamplingError(LoopbookError):
     """The process cannot be sampled as asked; the message says what is wrong with which argument."""
 
 
@@ -108,7 +109,7 @@ def zero_order_hold(
     >>> first_order.coefficients
     {'a_1': -exp(-h/T), 'b_1': 1 - exp(-h/T)}
     """
-    h, part = sp.sympify(h), sp.sympify(part)
+    h, part = sp.sympify(h, strict=True), sp.sympify(part, strict=True)
     if h.is_positive is False or h.has(sp.Float):
         raise SamplingError(f"h = {h}: the sampling interval must be an exact number or a symbol, > 0 s")
     if not (isinstance(whole, int) and whole >= 0):
@@ -138,7 +139,9 @@ def _primitive(power: int) -> tuple[sp.Expr, sp.Symbol]:
     return sp.expand(sp.integrate(T**power * sp.exp(p * T), T) * sp.exp(-p * T)), p
 
 
-def _step_response(found: dict[sp.Expr, sp.Expr], h: sp.Expr, part: sp.Expr, x: dict, y: dict):
+def _step_response(
+    found: dict[sp.Expr, sp.Expr], h: sp.Expr, part: sp.Expr, x: dict[int, sp.Expr], y: dict[int, sp.Expr]
+) -> sp.Expr:
     """n -> integral of g from 0 to (n - part) h, zero where that is not positive, with x, y for the exponentials."""
 
     def integral(pole: sp.Expr, r: sp.Expr, n: int) -> sp.Expr:
@@ -168,7 +171,7 @@ def dead_time_in_samples(L: sp.Expr, h: sp.Expr) -> tuple[int, sp.Expr]:
     >>> dead_time_in_samples(sp.Rational(5, 2), 1), dead_time_in_samples(2, 1)
     ((2, 1/2), (2, 0))
     """
-    ratio = sp.cancel(sp.sympify(L) / sp.sympify(h))
+    ratio = sp.cancel(sp.sympify(L, strict=True) / sp.sympify(h, strict=True))
     if not ratio.is_Rational:
         raise SamplingError(f"L/h = {ratio} must be an exact number: say how many samples with whole and part")
     if ratio < 0:

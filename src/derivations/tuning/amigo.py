@@ -57,11 +57,8 @@ def _published(name: str, title: str, takes: Takes, section: str, first: tuple[C
         for parameter, (by, limit) in more.get("good", {}).items()
     )
     last = () if "b_above" in more else (NO_WEIGHT,)
-    return Rule(
-        *(f"amigo-{name}", f"AMIGO {title}", takes),
-        **{"section": section, "source": SOURCE.format(section), "year": 2006, "aim": AIM, "c": 0, "b": 0},
-        **{**more, "cautions": first + outside + last},
-    )
+    more |= {"section": section, "source": SOURCE.format(section), "year": 2006, "aim": AIM, "c": 0, "b": 0}
+    return Rule(f"amigo-{name}", f"AMIGO {title}", takes, **more, cautions=first + outside + last)
 
 
 def _lag_dominated(least: Rational) -> tuple[Caution, ...]:

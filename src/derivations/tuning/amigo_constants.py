@@ -11,13 +11,14 @@ import sympy
 from sympy import Expr, Symbol
 
 from derivations.algebra.rational import solved_for
+from derivations.errors import LoopbookError
 from derivations.tuning import amigo, amigo_integrating
 from derivations.tuning.letters import K_180, L_1, T_1, T_2, T_180, K_p, K_v, L, T, kappa
 
 x, x_1, x_2 = (Symbol(name, positive=True) for name in ("x", "x_1", "x_2"))  # T/L, T_1/L_1, T_2/L_1
 
 
-class UnitError(ValueError):
+class UnitError(LoopbookError):
     """A rule's formula has not the unit that it must have: a factor is missing or too many."""
 
 
@@ -51,7 +52,7 @@ def pi_step() -> dict[str, Expr]:
     >>> pi_step()["pi-step-Ti-2"]
     13
     """
-    rule, integrating = amigo.pi_step(), amigo_integrating.pi_step_integrating()
+    rule, integrating = amigo.pi_step(), amigo_integrating.pi_step_limit()
     K, Ti = pure(rule.K * K_p, x), pure(rule.Ti / L, x)
     (top, *_), (lead, middle, last) = _fraction(Ti - _at(Ti, True))
     return {
@@ -106,6 +107,7 @@ def pi_frequency() -> dict[str, Expr]:
     rule = amigo.pi_frequency()
     return {
         "pi-frequency-K": pure(rule.K * K_180),
+        "pi-frequency-Ti-one": (1 / pure(rule.Ti / T_180, kappa)).subs(kappa, 0),
         "pi-frequency-Ti": sympy.diff(1 / pure(rule.Ti / T_180, kappa), kappa),
         "pi-frequency-kappa": rule.good["K"][1],
     }
@@ -127,6 +129,7 @@ def pid_frequency() -> dict[str, Expr]:
         "pid-frequency-Ti-1": Ti.subs(kappa, 0),
         "pid-frequency-Ti-2": sympy.diff(Ti.subs(kappa, 0) / Ti, kappa),
         "pid-frequency-Td-1": Td.subs(kappa, 0),
+        "pid-frequency-Td-one": solved_for(kappa, Td),
         "pid-frequency-Td-2": 1 / solved_for(kappa, 1 / Td),
         "pid-frequency-kappa": rule.good["K"][1],
     }
@@ -141,7 +144,7 @@ def pid_combined() -> dict[str, Expr]:
     """
     rule = amigo.pid_combined()
     share = (T_1 + T_2) / (T_1 + T_2 + L_1)
-    found = {}
+    found: dict[str, Expr] = {}
     for letter, number in (("alpha", rule.K), ("beta", rule.ki * L_1), ("gamma", rule.kd / share / L_1)):
         weights = sympy.Poly(pure(number * K_p, x_1, x_2), x_1, x_2)
         monomials = (1, x_1, x_2, x_1 * x_2)

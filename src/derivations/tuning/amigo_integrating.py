@@ -60,12 +60,12 @@ def pid_combined_integrating() -> Rule:
     return replace(limit, section=section, source=limit.source.replace(limit.section, section))
 
 
-def _integrating(stable: Rule, **formulas: Expr | tuple[Symbol, ...]) -> Rule:
+def _integrating(stable: Rule, inputs: tuple[Symbol, ...], **formulas: Expr) -> Rule:
     """A rule for an integrating process, which has no relative dead time to speak of: b = 0."""
     takes = Takes.INTEGRATING_STEP if stable.takes is Takes.STEP else Takes.PULSE
     return replace(
         stable, name=f"{stable.name}-integrating", takes=takes, integrating=True, measure=sympy.S.Zero,
-        good={}, cautions=(), refusals=(), **formulas,
+        inputs=inputs, good={}, cautions=(), refusals=(), **formulas,
     )  # fmt: skip
 
 

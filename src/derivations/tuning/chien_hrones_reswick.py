@@ -11,7 +11,7 @@ import sympy as sp
 from sympy import Rational
 
 from derivations.tuning.letters import T_0, T, a, k
-from derivations.tuning.rule import Caution, Rule
+from derivations.tuning.rule import NONE, OFF, Caution, Rule
 from derivations.tuning.takes import Takes
 from derivations.tuning.ziegler_nichols import ARTICLE
 
@@ -49,19 +49,21 @@ def _cautions(kind: str) -> tuple[Caution, ...]:
 def rules() -> tuple[Rule, ...]:
     """Without overshoot and with 20 %, each P, PI and PID."""
     source = f"{PAPER}; {ARTICLE}, tables of the Chien-Hrones-Reswick method"
-    formulas = {
-        (0, "p"): (Rational(3, 10) / a,),
-        (0, "pi"): (Rational(35, 100) / a, Rational(6, 5) * T),
+    formulas: dict[tuple[int, str], tuple[sp.Expr, sp.Expr, sp.Expr]] = {
+        (0, "p"): (Rational(3, 10) / a, NONE, OFF),
+        (0, "pi"): (Rational(35, 100) / a, Rational(6, 5) * T, OFF),
         (0, "pid"): (Rational(6, 10) / a, T, T_0 / 2),
-        (20, "p"): (Rational(7, 10) / a,),
-        (20, "pi"): (Rational(6, 10) / a, T),
+        (20, "p"): (Rational(7, 10) / a, NONE, OFF),
+        (20, "pi"): (Rational(6, 10) / a, T, OFF),
         (20, "pid"): (Rational(95, 100) / a, Rational(14, 10) * T, Rational(47, 100) * T_0),
     }
     return tuple(
         Rule(
             f"chr-{kind}-{overshoot}",
             f"Chien-Hrones-Reswick {overshoot} %, {kind.upper()}",
-            *(Takes.STEP, (k, T, T_0), *settings),
+            Takes.STEP,
+            (k, T, T_0),
+            *settings,
             source=source,
             year=1952,
             aim=f"set-point: {f'{overshoot} % overshoot' if overshoot else 'no overshoot'}",

@@ -8,6 +8,7 @@ the article's script runs through.
 """
 
 from functools import cache
+from typing import Any
 
 import sympy as sp
 
@@ -37,14 +38,14 @@ i = sp.Symbol("i", positive=True)
 def rules() -> tuple[Rule, ...]:
     """PI and PID for a lag with dead time, and PI for a lag alone."""
     x = (k, T, T_0, lam)
-    dead = {
+    dead: dict[str, Any] = {
         "source": SOURCE,
         "year": 1968,
         "aim": AIM,
         "cautions": (SLOW, AGGRESSIVE),
         "defaults": {lam: sp.Max(T, T_0)},
     }
-    alone = {"aim": AIM, "refusals": (DEAD_TIME,)}
+    alone: dict[str, Any] = {"aim": AIM, "refusals": (DEAD_TIME,)}
     half = T_0 / 2
     pid = ((half + T) / (k * (half + lam)), T + half, T * T_0 / (T_0 + 2 * T))
     return (

@@ -11,7 +11,7 @@ import sympy as sp
 from sympy import Rational
 
 from derivations.tuning.letters import T_0, K_u, T, T_u, a, k
-from derivations.tuning.rule import Caution, Rule
+from derivations.tuning.rule import NONE, OFF, Caution, Rule
 from derivations.tuning.takes import Takes
 
 ARTICLE = "pid-article"
@@ -29,11 +29,9 @@ def rules() -> tuple[Rule, ...]:
     """From the model k e^(-s T0)/(1 + s T), then from the ultimate point; P, PI, PID and the article's variants."""
     article = f"{ARTICLE}, table of the step-response method"
 
-    def step(name: str, title: str, source: str, *formulas: sp.Expr) -> Rule:
-        title = f"Ziegler-Nichols step, {title}"
-        return Rule(
-            name, title, Takes.STEP, (k, T, T_0), *formulas, source=source, year=1942, aim=AIM, cautions=(RANGE,)
-        )
+    def step(name: str, kind: str, source: str, K: sp.Expr, Ti: sp.Expr = NONE, Td: sp.Expr = OFF) -> Rule:
+        title, inputs = f"Ziegler-Nichols step, {kind}", (k, T, T_0)
+        return Rule(name, title, Takes.STEP, inputs, K, Ti, Td, source=source, year=1942, aim=AIM, cautions=(RANGE,))
 
     pi = step("zn-step-pi", "PI", PAPER, Rational(9, 10) / a, T_0 / Rational(3, 10))
     by_step = (
@@ -48,10 +46,10 @@ def rules() -> tuple[Rule, ...]:
 def _ultimate() -> tuple[Rule, ...]:
     article = f"{ARTICLE}, table of the ultimate-gain method"
 
-    def ultimate(name: str, title: str, source: str, *formulas: sp.Expr) -> Rule:
-        title = f"Ziegler-Nichols ultimate, {title}"
+    def ultimate(name: str, kind: str, source: str, K: sp.Expr, Ti: sp.Expr = NONE, Td: sp.Expr = OFF) -> Rule:
+        title, inputs = f"Ziegler-Nichols ultimate, {kind}", (K_u, T_u)
         return Rule(
-            *(name, title, Takes.FREQUENCY, (K_u, T_u), *formulas), source=source, year=1942, aim=AIM, integrating=None
+            name, title, Takes.FREQUENCY, inputs, K, Ti, Td, source=source, year=1942, aim=AIM, integrating=None
         )
 
     pi = ultimate("zn-ultimate-pi", "PI", PAPER, Rational(9, 20) * K_u, T_u / Rational(6, 5))

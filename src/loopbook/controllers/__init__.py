@@ -3,16 +3,11 @@
 All arithmetic is + - * / and comparison, so that floats and fractions both run.
 """
 
-from loopbook.controllers.on_off import OnOff
-from loopbook.controllers.pid import BadMeasurement, BadMeasurementWarning, Pid
-from loopbook.controllers.settings import ANTI_WINDUP, PidSettings, SettingError
+from loopbook.lazy import attach
 
-__all__ = [
-    "ANTI_WINDUP",
-    "BadMeasurement",
-    "BadMeasurementWarning",
-    "OnOff",
-    "Pid",
-    "PidSettings",
-    "SettingError",
-]
+TABLE = {
+    **{name: f"loopbook.controllers.pid:{name}" for name in ("BadMeasurement", "BadMeasurementWarning", "Pid")},
+    **{name: f"loopbook.controllers.settings:{name}" for name in ("ANTI_WINDUP", "PidSettings", "SettingError")},
+    "OnOff": "loopbook.controllers.on_off:OnOff",
+}
+__getattr__, __dir__, __all__ = attach(__name__, TABLE)

@@ -9,6 +9,9 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
+from derivations.programs import pid_code as code
+from derivations.programs.bumpless import keep_both_parts
+
 GAINS = ("p_1", "p_2", "p_3", "p_4", "p_5", "p_6", "p_24", "c")
 
 
@@ -35,8 +38,6 @@ def gains() -> Callable:
 
     Ti = None gives p_5 = p_6 = 0: without integral action I is a constant offset.
     """
-    from derivations.programs import pid_code as code
-
     values = {s.name: v for s, v in code.weighted().gain_values().items()} | {"p_24": code.derivative_gain()}
     lines = ["def gains(K, T_i, T_d, T_f, b, c, h, T_t):"]
     lines += [f"    {p} = {_text(values[p])}" for p in GAINS if p not in ("p_5", "p_6", "c")]
@@ -47,8 +48,6 @@ def gains() -> Callable:
 @cache
 def expressions() -> dict[str, Any]:
     """v, the new x, the new I with tracking, and the new I without: SymPy expressions of the weighted program."""
-    from derivations.programs import pid_code as code
-
     assigned = {a.target.name: a.value for a in code.weighted().before + code.weighted().after}
     tracked = assigned["I"]
     return {"v": assigned["v"], "x": assigned["x"], "I": tracked, "I_free": tracked.subs(code.p6, 0)}
@@ -129,8 +128,6 @@ def run(rule: str, rate: bool) -> Callable:
 @cache
 def bumpless_change() -> Callable:
     """New x and I after a change of settings, from `derivations.programs.bumpless.keep_both_parts`."""
-    from derivations.programs.bumpless import keep_both_parts
-
     new = {s.name: value for s, value in keep_both_parts().items()}
     arguments = "I, x, y, y_sp, K_old, b_old, c_old, p_24old, K_new, b_new, c_new, p_24new"
     source = f"def bumpless_change({arguments}):\n    return {_text(new['x'])}, {_text(new['I'])}"
@@ -140,8 +137,6 @@ def bumpless_change() -> Callable:
 @cache
 def program_pass(figure: str) -> Callable:
     """One pass of a printed program: f(values) -> values, with the names of the settings and variables as keys."""
-    from derivations.programs import pid_code as code
-
     program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
     lines = ["def program_pass(known):"]
     names = sorted({s.name for a in program.before + program.after for s in a.value.free_symbols})
@@ -156,8 +151,15 @@ def program_pass(figure: str) -> Callable:
 @cache
 def program_gains(figure: str) -> Callable:
     """(K, Ti, Td, Tf, b, h, Tt) -> gains by name for a printed program."""
-    from derivations.programs import pid_code as code
-
-    program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
+    makers = {
+        "4.7": code.conditional,
+        "4.9": code.separate,
+        "4.10": code.separate_split,
+        "4.11": code.merged,
+        "4.12": code.merged_state,
+        "4.13": code.minimal,
+        "shortest": code.shortest,
+    }
+    program = makers[figure]()
     pairs = ", ".join(f"{s.name!r}: {_text(value)}" for s, value in program.gain_values().items())
     return _compiled(f"def program_gains(K, T_i, T_d, T_f, b, h, T_t):\n    return {{{pairs}}}", "program_gains")

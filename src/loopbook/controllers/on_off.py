@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from loopbook.controllers.pid import BadMeasurement
 from loopbook.controllers.settings import SettingError
 
 
@@ -33,7 +34,7 @@ class OnOff:
     u: Any = field(default=None, init=False)
     switches: int = field(default=0, init=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.u_low < self.u_high or math.isinf(self.u_low) or math.isinf(self.u_high):
             raise SettingError("u_low", self.u_low, f"u_low < u_high = {self.u_high!r}, both finite")
         for name in ("hysteresis", "dead_zone"):
@@ -50,8 +51,6 @@ class OnOff:
         """The output for this sample. Raises BadMeasurement where y or y_sp is not a finite number; u stays."""
         e = y_sp - y
         if e - e != 0:
-            from loopbook.controllers.pid import BadMeasurement
-
             raise BadMeasurement("y" if y - y != 0 else "y_sp", y if y - y != 0 else y_sp, self.u)
         if e > self.hysteresis + self.dead_zone:
             u = self.u_high

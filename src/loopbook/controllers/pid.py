@@ -14,13 +14,14 @@ from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings, SettingError
 
 AUTO, MANUAL = "auto", "manual"
 
 
-class BadMeasurement(ValueError):
+class BadMeasurement(LoopbookError):
     """y or y_sp is not a finite number; the state is as before that sample. ``output``: the last output, to be held."""
 
     def __init__(self, name: str, value: Any, output: Any, sample: int | None = None):
@@ -45,6 +46,10 @@ class Pid:
     >>> [pid.step(y, 1.0) for y in (0.0, 0.5, 1.0)]
     [2.0, 1.5, 0.75]
     """
+
+    _p_1: Any
+    _p_2: Any
+    _p_24: Any
 
     def __init__(self, settings: PidSettings, *, I: Any = 0, x: Any = None, on_bad: str = "raise"):
         if on_bad not in ("raise", "hold"):
@@ -149,7 +154,7 @@ class Pid:
             self.x = x if bumpless == "exact" else self.x
         return self.settings
 
-    def run(self, y: Sequence[Any], y_sp: Any, out: Any = None) -> Any:
+    def run(self, y: Sequence[Any] | np.ndarray, y_sp: Any, out: Any = None) -> Any:
         """Many automatic samples over recorded signals, fast.
 
         y: measurements; y_sp: one set-point, or one per measurement. out: array or list to fill, default a new array

@@ -11,13 +11,15 @@ weighs the reference in the proportional part. Ti = inf means no integral action
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.controllers.regulator import Regulator
 
 
-class FormError(ValueError):
+class FormError(LoopbookError):
     """Parameters that no controller of this form can have, or a conversion that does not exist."""
 
 
@@ -34,6 +36,9 @@ def _time(name: str, value: float, infinite: bool = False) -> None:
 
 class _Form:
     """What the three forms share: all of it follows from the parallel parameters."""
+
+    def parallel(self) -> "PidParallel":
+        raise NotImplementedError
 
     def regulator(self) -> Regulator:
         """The polynomials T, S, R of R u = T r - S y."""
@@ -60,7 +65,7 @@ class _Form:
         regulator = self.regulator()
         return regulator.T, regulator.R
 
-    def __call__(self, s):
+    def __call__(self, s: Any) -> Any:
         """C(s) = -u/y at complex s."""
         return self.regulator().feedback(s)
 
@@ -83,7 +88,7 @@ class PidParallel(_Form):
     b: float = 1.0
     c: float = 1.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _finite(P=self.P, I=self.I, D=self.D, b=self.b, c=self.c)
         if not self.N > 0:
             raise FormError(f"N = {self.N!r} rad/s must be positive: it is the pole of the derivative's filter")
@@ -132,7 +137,7 @@ class PidStandard(_Form):
     N: float | None = None
     Tf: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _finite(K=self.K, b=self.b, c=self.c)
         _time("Ti", self.Ti, infinite=True)
         _time("Td", self.Td)
@@ -201,7 +206,7 @@ class PidSeries(_Form):
     N: float | None = None
     Tf: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         checked = PidStandard(self.K, self.Ti, self.Td, N=self.N, Tf=self.Tf)
         object.__setattr__(self, "N", checked.N)
         object.__setattr__(self, "Tf", checked.Tf)

@@ -31,7 +31,7 @@ class Regulator:
     S: tuple[float, ...]
     R: tuple[float, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("T", "S", "R"):
             object.__setattr__(self, name, coefficients(getattr(self, name), name))
         if self.R == (0.0,):

@@ -13,16 +13,20 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
+from derivations.pole_placement.rst_law import law
 from loopbook.numerics import polynomial_text
+from loopbook.numerics.recursion import recursion
 
 Polynomial = Sequence[float] | np.ndarray
 NEAR = 1e-8
 
 
-class PlacementError(ValueError):
+class PlacementError(LoopbookError):
     """The polynomial equation has no solution or no meaning; the message names the factor or the polynomial."""
 
 
@@ -53,6 +57,10 @@ class Rst:
     """R u = T r - S y; coefficients of z^0, z^-1, ...; R starts with 1 (it is scaled to). h: sampling interval [s].
 
     observer: A_o of the anti-windup form (see `derivations.pole_placement.rst_law`); (1,) sets v from the inputs alone.
+
+    >>> controller = Rst(R=(1, -1), S=(1, -0.5), T=(0.5,), h=1.0).controller(low=0.0, high=2.0)
+    >>> [controller.step(y, 1.0) for y in (0.0, 0.2, 0.4)]
+    [0.5, 0.8, 1.0]
     """
 
     R: tuple[float, ...]
@@ -61,7 +69,7 @@ class Rst:
     h: float
     observer: tuple[float, ...] = (1.0,)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         lead = _row(self.R, "R")[0]
         if lead == 0:
             raise PlacementError(f"R = {self.R} has no term without delay: u(k) would not appear in its own equation")
@@ -85,7 +93,7 @@ class Rst:
         outside = self.poles[abs(self.poles) > 1 - NEAR]
         return len(outside) <= 1 and bool((abs(outside - 1) < 1e-6).all())
 
-    def feedback(self, z):
+    def feedback(self, z: Any) -> Any:
         """S/R at complex z."""
         inverse = 1 / np.asarray(z)
         return np.polyval(self.S[::-1], inverse) / np.polyval(self.R[::-1], inverse)
@@ -111,9 +119,6 @@ class RstController:
     """
 
     def __init__(self, regulator: Rst, low: float = -np.inf, high: float = np.inf):
-        from derivations.pole_placement.rst_law import law
-        from loopbook.numerics.recursion import recursion
-
         if not low < high:
             raise ValueError(f"limits [{low}, {high}]: the lower one must be below the upper one")
         self.regulator, self.low, self.high = regulator, low, high

@@ -9,6 +9,8 @@ from fractions import Fraction
 from numbers import Real
 from typing import Any
 
+from derivations.errors import LoopbookError
+
 ANTI_WINDUP = {
     "tracking": "I follows the limited output with the time constant Tt (pid-report, eq. 4.5)",
     "conditional": "I moves only where the output is not limited (figure 4.7); it can lock up",
@@ -18,7 +20,7 @@ ANTI_WINDUP = {
 }
 
 
-class SettingError(ValueError):
+class SettingError(LoopbookError):
     """A setting outside its range. Attributes: name, value, range."""
 
     def __init__(self, name: str, value: Any, range: str, hint: str = ""):
@@ -67,6 +69,9 @@ class PidSettings:
     Tt > h/2: tracking time constant; None takes `tracking_time`, but not less than h (below h/2 the recursion
     I -> (1 - h/Tt) I diverges, below h it alternates).
     Raises SettingError with the name, the value and the range.
+
+    >>> PidSettings(K=2.0, Ti=4.0, Td=1.0, h=0.1).Tt
+    2.0
     """
 
     K: Any
@@ -82,7 +87,7 @@ class PidSettings:
     rate: Any = None
     anti_windup: str = "tracking"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("K", "Td", "Tf", "b", "c", "h"):
             _number(name, getattr(self, name))
         for name in ("Ti", "Tt", "rate"):

@@ -1,6 +1,7 @@
 """A regulator for one's own process: every rule that applies, side by side, judged by the same exact numbers.
 
->>> from loopbook.design import Model, candidates
+>>> from loopbook.design import Model
+>>> from loopbook.design.candidates import candidates
 >>> accepted, refused = candidates(Model(gain=2.0, lags=(10.0,), delay=3.0))
 >>> accepted[0].name, refused[0].name
 ('Ziegler-Nichols step, PI', 'SIMC, PID')
@@ -12,7 +13,7 @@ TABLE = {
     "Study": "loopbook.design.study:Study",
     "Model": "loopbook.design.model:Model",
     "ModelError": "loopbook.design.model:ModelError",
-    "read_toml": "loopbook.design.model:read_toml",
+    "read_toml": "loopbook.design.model_file:read_toml",
     "evaluate": "loopbook.design.evaluation:evaluate",
     "recommend": "loopbook.design.recommendation:recommend",
 }

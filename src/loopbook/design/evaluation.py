@@ -8,6 +8,9 @@ import numpy as np
 from loopbook.design.candidates import Candidate
 from loopbook.design.model import Model
 from loopbook.loop.continuous import Loop, StepResponse
+from loopbook.loop.sensitivity_peaks import sensitivity_peak
+from loopbook.loop.transfer import LoopError
+from loopbook.numerics.collocation import ResponseError
 from loopbook.numerics.signals import Signal
 
 
@@ -19,7 +22,8 @@ class Evaluation:
     iae_reference, iae_load [y s]: integral of |error| after a unit step of the reference and of the load at the input.
     overshoot [%], settling [s]: of the reference step. peak_input [u]: largest |u| after it; variation [u]: total
     variation of u after it. noise_gain [u/y]: of the controller at high frequencies, K (1 + N).
-    An unstable loop has none of these: `stable` is False and the numbers are NaN.
+    An unstable loop has none of these: `stable` is False and the numbers are NaN. So has one that rounding keeps from
+    being judged (a process of very high order); `reason` then says so.
     """
 
     candidate: Candidate
@@ -39,12 +43,13 @@ class Evaluation:
     noise_gain: float = math.nan
     reference: StepResponse | None = None
     load: StepResponse | None = None
+    reason: str = ""
 
 
 def total_variation(signal: Signal) -> float:
     """How far a signal travels up and down in all, the jump at its start from zero included.
 
-    >>> total_variation(Signal.constant(2.0, 0.0, 1.0))
+    >>> total_variation(Signal(np.array([0.0, 1.0]), np.array([[2.0]])))
     2.0
     """
     times, values = signal.extremes()
@@ -62,6 +67,13 @@ def noise_gain(candidate: Candidate) -> float:
 def evaluate(model: Model, candidate: Candidate) -> Evaluation:
     """Close the loop and measure it."""
     loop = Loop(model.process, candidate.pid)
+    try:
+        return _measured(candidate, loop)
+    except (LoopError, ResponseError) as error:
+        return Evaluation(candidate, loop, False, noise_gain=noise_gain(candidate), reason=str(error))
+
+
+def _measured(candidate: Candidate, loop: Loop) -> Evaluation:
     if not loop.is_stable:
         return Evaluation(candidate, loop, False, noise_gain=noise_gain(candidate))
     margins = loop.margins()
@@ -101,11 +113,18 @@ class Robustness:
     Ms: float
 
 
-def robustness(model: Model, candidate: Candidate, number: int = 20, seed: int = 0) -> Robustness:
-    """Close the loop on models drawn from the confidence region."""
-    from loopbook.loop.sensitivity_peaks import sensitivity_peak
-
-    drawn = model.variations(number, seed)
+def robustness(
+    model: Model, candidate: Candidate, number: int = 20, seed: int = 0, other: Model | None = None
+) -> Robustness:
+    """Close the loop on models drawn from the confidence region, and on a model of the other direction."""
+    drawn = [*model.variations(number, seed), *([other] if other else [])]
     loops = [Loop(m.process, candidate.pid) for m in drawn]
     peaks = [sensitivity_peak(loop.transfer).value for loop in loops if loop.is_stable]
-    return Robustness(len(drawn), len(peaks), float(np.quantile(peaks, 0.95)) if peaks else math.nan)
+    return Robustness(len(drawn), len(peaks), _peak(peaks, other is not None))
+
+
+def _peak(peaks: list[float], has_other: bool) -> float:
+    """The 95 % quantile; the last one, of the other direction, counts in full."""
+    if not peaks:
+        return math.nan
+    return float(max(np.quantile(peaks, 0.95), peaks[-1] if has_other else 0.0))

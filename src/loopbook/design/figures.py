@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.plots.curves import COLOURS, STYLES, curves
+from notebook_reports.display import figure
 
 MOST = 6
 """How many responses one figure can hold and still be read."""
@@ -13,8 +14,6 @@ MOST = 6
 
 def record_or_step(study: Any) -> Any:
     """The record with its model, captioned; for a model that was given its step response."""
-    from notebook_reports.display import figure
-
     if study.identified is not None:
         caption = "The recorded output with the fitted model, the residuals, and the recorded input."
         return figure(record(study.identified), caption, "Three panels over time: output and model, residuals, input.")
@@ -47,6 +46,35 @@ def record(found: Any) -> Any:
     return fig
 
 
+def sheet(study: Any) -> Any:
+    """The record with its model, small, for the first page; of a given model its step response."""
+    import matplotlib.pyplot as plt
+
+    if study.identified is None:
+        model = study.model
+        t = np.linspace(0.0, 8 * (model.delay + sum(model.lags)), 400)
+        drawn = curves({"output $y$": {"model": (t, model.process.step(t))}}, "", height=2.0)
+        return figure(
+            drawn, "The step response of the given model.", "A curve over time that starts after the dead time."
+        )
+    log, fit = study.identified.record, study.identified.chosen
+    fig, axes = plt.subplots(2, 1, figsize=(6.3, 2.1), sharex=True, layout="constrained", height_ratios=[3, 1])
+    shown, out = log.used, log.left_out
+    axes[0].plot(log.time[shown], log.y[shown], ".", color="0.6", markersize=2.5, label="measured")
+    if out.any():
+        axes[0].plot(log.time[out], log.y[out], "x", color=COLOURS[1], markersize=4, label="left out")
+    axes[0].plot(log.time[shown], (log.y - fit.residuals)[shown], color=COLOURS[0], linewidth=1.2, label="model")
+    axes[0].set_ylabel(_label(log.output_name, log.output_unit), fontsize="small")
+    axes[0].legend(fontsize="x-small", ncols=3)
+    axes[1].step(log.time, log.u, where="post", color=COLOURS[2])
+    axes[1].set_ylabel(_label(log.input_name, log.input_unit), fontsize="small")
+    axes[1].set_xlabel("time $t$ [s]", fontsize="small")
+    for axis in axes:
+        axis.grid(True, linewidth=0.4, alpha=0.5)
+        axis.tick_params(labelsize="small")
+    return figure(fig, "The record and the model fitted to it.", "Two panels over time: output with model, and input.")
+
+
 def _label(name: str, unit: str) -> str:
     return (f"{name} [{unit}]" if unit else name).replace("$", r"\$")
 
@@ -70,6 +98,35 @@ def limited(run: Any) -> Any:
     return curves(panels, "The sampled regulator within the actuator's limits", height=4.6)
 
 
+def along(curve: Sequence[Any], chosen: Any) -> Any:
+    """The trade-off along the knob from slow to fast: a line of PI and one of PID; the chosen loop ringed.
+
+    curve: (speed, evaluation) pairs of `Study.curve`.
+    """
+    import matplotlib.pyplot as plt
+
+    fig, axis = plt.subplots(figsize=(6.3, 3.0), layout="constrained")
+    for kind, colour, marker in (("PI", COLOURS[0], "o"), ("PID", COLOURS[1], "s")):
+        points = [(k, e) for k, e in curve if bool(e.candidate.pid.Td) is (kind == "PID")]
+        if not points:
+            continue
+        how = {"color": colour, "marker": marker, "markersize": 4}
+        axis.plot([e.Ms for _, e in points], [e.iae_load for _, e in points], label=kind, **how)
+        for knob, e in points:
+            axis.annotate(f"{knob.speed:g}", (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
+    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
+    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
+        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
+    axis.set_yscale("log")
+    axis.set_xlabel("sensitivity peak $M_s$")
+    axis.set_ylabel("IAE after a load step")
+    axis.set_title("From slow (0) to fast (1)")
+    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+    if curve:
+        axis.legend(fontsize="small")
+    return fig
+
+
 def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
     """Load error against robustness, one point a rule; PI as circles, PID as squares, the chosen one ringed."""
     import matplotlib.pyplot as plt
@@ -77,7 +134,7 @@ def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
     fig, axis = plt.subplots(figsize=(6.3, 3.6), layout="constrained")
     stable = [e for e in evaluations if e.stable]
     for i, e in enumerate(stable):
-        how = {"marker": "s" if e.candidate.pid.Td else "o", "linestyle": "none", "markersize": 5}
+        how: dict[str, Any] = {"marker": "s" if e.candidate.pid.Td else "o", "linestyle": "none", "markersize": 5}
         colour = COLOURS[i % len(COLOURS)]
         axis.plot(e.Ms, e.iae_load, color=colour, label=f"{i + 1}  {e.candidate.name}", **how)
         axis.annotate(str(i + 1), (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
@@ -89,5 +146,6 @@ def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
     axis.set_ylabel("IAE after a load step")
     axis.set_title("Robustness against load rejection")
     axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
-    axis.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    if stable:
+        axis.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return fig

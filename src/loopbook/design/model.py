@@ -1,20 +1,29 @@
 """What a design starts from: a process model, its uncertainty, and what an experiment at the ultimate point found."""
 
-import tomllib
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
+from loopbook.experiments import step
+from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
+from loopbook.process.frequency_response import ultimate
+from loopbook.process.transfer_function import Process
+from notebook_reports.display import number
+
 if TYPE_CHECKING:
     from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
     from loopbook.identification.choice import Identified
+    from loopbook.identification.fit import Fit
     from loopbook.process.transfer_function import Process
 
 
-class ModelError(ValueError):
+MOST_FACTORS = 5  # different time constants in one formula; more are written as a product
+
+
+class ModelError(LoopbookError):
     """The description of a process cannot be used; the message says which entry and how to mend it."""
 
 
@@ -48,6 +57,11 @@ class Model:
             raise ModelError("a process without time constants follows its input at once; give time_constants")
 
     @property
+    def rises(self) -> bool:
+        """Does y rise with u?"""
+        return self.gain > 0
+
+    @property
     def sign(self) -> float:
         """1 where y rises with u, -1 where it falls."""
         return 1.0 if self.gain > 0 else -1.0
@@ -55,8 +69,6 @@ class Model:
     @cached_property
     def process(self) -> "Process":
         """The model as a Process."""
-        from loopbook.process.transfer_function import Process
-
         den = np.array([1.0, 0.0]) if self.integrating else np.array([1.0])
         for T in self.lags:
             den = np.polymul(den, [T, 1.0])
@@ -64,14 +76,19 @@ class Model:
 
     def latex(self) -> str:
         """The transfer function as LaTeX, four digits."""
-        from notebook_reports.display import number
 
         def text(value: float) -> str:
             digits, e, power = number(value, 4).replace("−", "-").partition("e")
             return rf"{digits} \cdot 10^{{{power}}}" if e else digits
 
-        factors = ["s"] * self.integrating + [f"(1 + {text(T)} s)" for T in self.lags]
-        below = factors[0].strip("()") if len(factors) == 1 else " ".join(factors)
+        alike = [(T, self.lags.count(T)) for T in dict.fromkeys(self.lags)]
+        if len(alike) > MOST_FACTORS:
+            lags = [rf"\prod_{{i=1}}^{{{len(self.lags)}}} (1 + T_i s)"]
+        else:
+            lags = [f"(1 + {text(T)} s)" + (f"^{{{n}}}" if n > 1 else "") for T, n in alike]
+        factors = ["s"] * self.integrating + lags
+        alone = len(factors) == 1 and factors[0].startswith("(") and factors[0].endswith(")")
+        below = factors[0][1:-1] if alone else " ".join(factors)
         fraction = rf"\frac{{{text(self.gain)}}}{{{below}}}"
         return rf"G(s) = {fraction}" + (rf" e^{{-{text(self.delay)} s}}" if self.delay else "")
 
@@ -83,9 +100,6 @@ class Model:
     @cached_property
     def step_data(self) -> "StepData | IntegratingStepData":
         """What a step experiment on the upright model tells (tangent and 63 %, or final slope and its intercept)."""
-        from loopbook.experiments import step
-        from loopbook.experiments.data import IntegratingStepData, StepData
-
         model = self.upright
         if model.integrating:
             return IntegratingStepData(model.gain, model.delay + sum(model.lags))
@@ -96,9 +110,6 @@ class Model:
     @cached_property
     def frequency_data(self) -> "FrequencyData":
         """K180 and T180: measured, or of the model. Raises NoSuchFrequency where the model never lags so far."""
-        from loopbook.experiments.data import FrequencyData
-        from loopbook.process.frequency_response import ultimate
-
         if self.frequency is not None:
             return self.frequency
         point = ultimate(self.upright.process)
@@ -127,75 +138,12 @@ class Model:
 
 def from_identified(found: "Identified", frequency: "FrequencyData | None" = None) -> Model:
     """The chosen model of an identification, with its covariance."""
-    fit = found.chosen
+    return from_fit(found.chosen, found.record.source or "the record", frequency)
+
+
+def from_fit(fit: "Fit", source: str, frequency: "FrequencyData | None" = None) -> Model:
+    """A fitted model, with its covariance."""
     order = [0, *(1 + np.argsort(fit.lags)[::-1]), len(fit.lags) + 1]
     covariance = fit.covariance[np.ix_(order, order)]
-    source = f"{fit.structure.name}, fitted to {found.record.source or 'the record'}"
+    source = f"{fit.structure.name}, fitted to {source}"
     return Model(fit.gain, fit.lags, fit.delay, fit.structure.integrating, frequency, covariance, source)
-
-
-def read_toml(path: str | Path) -> Model:
-    """Read a process from a TOML file.
-
-        [process]
-        gain = 2.0                    # y/u, for an integrating process y/(u s)
-        time_constants = [10.0, 4.0]  # s
-        delay = 3.0                   # s
-        integrating = false           # optional
-        [experiment]                  # optional: a relay or oscillation experiment
-        K180 = 0.21                   # y/u
-        T180 = 22.0                   # s
-
-    Raises ModelError with the entry that is missing, unknown or of the wrong kind.
-    """
-    from loopbook.experiments.data import DataError, FrequencyData
-
-    path = Path(path)
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise ModelError(f"there is no file {path}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise ModelError(f"{path.name}: {error}") from None
-    entries = dict(content.get("process", {}))
-    if not entries:
-        raise ModelError(f"{path.name} has no [process] with gain, time_constants and delay")
-    known = {"gain", "time_constants", "delay", "integrating"}
-    _only(path, "process", entries, known)
-    missing = {"gain", "delay"} - set(entries)
-    if missing:
-        raise ModelError(f"{path.name}: [process] lacks {', '.join(sorted(missing))}")
-    for name in ("gain", "delay"):
-        _number(path, name, entries[name])
-    lags = entries.get("time_constants", [])
-    for T in lags if isinstance(lags, list) else [None]:
-        _number(path, "time_constants", T)
-    measured = content.get("experiment")
-    frequency = None
-    if measured is not None:
-        _only(path, "experiment", measured, {"K180", "T180"})
-        try:
-            frequency = FrequencyData(float(measured["K180"]), float(measured["T180"]))
-        except (KeyError, TypeError, ValueError, DataError) as error:
-            raise ModelError(f"{path.name}: [experiment] needs K180 and T180, positive numbers ({error})") from None
-    integrating = bool(entries.get("integrating", False))
-    try:
-        return Model(
-            float(entries["gain"]), tuple(lags), float(entries["delay"]), integrating, frequency, None, path.name
-        )
-    except ModelError as error:
-        raise ModelError(f"{path.name}: {error}") from None
-
-
-def _only(path: Path, table: str, entries: dict, known: set[str]) -> None:
-    import difflib
-
-    for name in sorted(set(entries) - known):
-        near = difflib.get_close_matches(name, known, n=1)
-        hint = f"; did you mean {near[0]}?" if near else f"; known: {', '.join(sorted(known))}"
-        raise ModelError(f"{path.name}: [{table}] has no entry {name!r}{hint}")
-
-
-def _number(path: Path, name: str, value: Any) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ModelError(f"{path.name}: {name} = {value!r}: a number is expected")

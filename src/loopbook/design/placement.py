@@ -7,8 +7,10 @@ import numpy as np
 
 from loopbook.controllers.rst import PlacementError, Rst, with_zeros
 from loopbook.design.model import Model
+from loopbook.design.speed import time_scale
 from loopbook.loop.sampled import SampledLoop, SampledMargins
 from loopbook.pole_placement.numeric import place
+from loopbook.process.sampled import sample
 from notebook_reports.display import Table, number
 
 SPEEDS = (1.0, 0.5, 0.25)
@@ -35,15 +37,13 @@ class Placed:
 
 def interval(model: Model) -> float:
     """A sampling interval [s] for placement: a tenth of the slowest lag, or a fifth of the delay if that is longer."""
-    slowest = max((*model.lags, model.delay / 2))
+    slowest = max((*model.lags, model.delay / 2)) or time_scale(model)
     return float(f"{max(slowest / 10, model.delay / 5):.3g}")
 
 
 def placed(model: Model, closed: float, h: float) -> Placed:
     """All poles of the loop at q = exp(-h/closed), as many as the sampled process has with one integrator."""
     q = math.exp(-h / closed)
-    from loopbook.process.sampled import sample
-
     B, A = sample(model.process, h).polynomials
     try:
         regulator = place(B, A, with_zeros([q] * len(A)), h).regulator

@@ -1,9 +1,16 @@
 """The regulator as it goes into a controller: sampling interval, filter, coefficients, listing, JSON."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
+from derivations.algebra.listing import written
+from derivations.pid.pid_laws import c
+from derivations.programs import start
+from derivations.programs.pid_code import minimal
+from loopbook.controllers.generated import program_gains
 from loopbook.controllers.settings import PidSettings
 from loopbook.design.evaluation import Evaluation
 
@@ -24,22 +31,37 @@ class SampledProgram:
 
     settings: checked settings with h and the limits. gains: p_1 to p_6 from the derived equations. why: how h was
     chosen, one sentence each. delay_margin_left: the share of the loop's delay margin that the sampling (h/2 of
-    added dead time) leaves, 1 = all.
+    added dead time) leaves, 1 = all. rest: (u, y) at which the listing starts, with the set-point at y.
     """
 
     settings: PidSettings
     gains: dict[str, float]
     why: tuple[str, ...]
     delay_margin_left: float
+    rest: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def start(self) -> dict[str, float]:
+        """x and I for which the first output is u of the rest: nothing moves when the program is switched on."""
+        u0, y0 = self.rest
+        g = self.gains
+        x, exact = rest_state()(*(g[f"p_{i}"] for i in (1, 2, 3, 4)), y0, u0)
+        I = exact
+        for _ in range(4):  # the last digits, as the program itself rounds them
+            I += u0 - (g["p_1"] * y0 - g["p_2"] * y0 + I + x)
+        return {"x": x, "I": I}
 
     def listing(self) -> str:
         """The program, generated from the derived difference equations, with the numbers of this design."""
-        from derivations.programs.pid_code import minimal
-
         lines = minimal().listing().splitlines()
         body = lines[lines.index("repeat:") :]
         numbers = [f"{name.replace('_', '')} = {value!r}" for name, value in self.gains.items()]
-        limits = [f"ulow = {self.settings.u_low!r}", f"uhigh = {self.settings.u_high!r}", "x = 0", "I = 0"]
+        limits = [f"ulow = {self.settings.u_low!r}", f"uhigh = {self.settings.u_high!r}", ""]
+        limits += [f"start at rest, with the set-point at y (here y = {self.rest[1]!r}, u = {self.rest[0]!r}):"]
+        limits += [
+            f"x = {self.start['x']!r}    ({start_formulas()[0]})",
+            f"I = {self.start['I']!r}    ({start_formulas()[1]})",
+        ]
         return "\n".join([*numbers, *limits, *body])
 
     def data(self) -> dict[str, Any]:
@@ -48,7 +70,58 @@ class SampledProgram:
         names = ("K", "Ti", "Td", "Tf", "b", "h", "Tt")
         numbers = {name: float(getattr(s, name)) for name in names if getattr(s, name) is not None}
         limits = {n: (float(v) if math.isfinite(v) else None) for n, v in (("u_low", s.u_low), ("u_high", s.u_high))}
-        return {"form": "standard", "settings": numbers, "limits": limits, "gains": self.gains}
+        point = {"u0": self.rest[0], "y0": self.rest[1]}
+        formulas = dict(zip(("x", "I"), start_formulas(), strict=True))
+        return {
+            "form": "standard",
+            "settings": numbers,
+            "limits": limits,
+            "gains": self.gains,
+            "operating_point": point,
+            "start": {"u": self.rest[0], "y": self.rest[1], **self.start, "formulas": formulas},
+        }
+
+
+@cache
+def rest_state() -> Callable[..., tuple[float, float]]:
+    """(p_1, p_2, p_3, p_4, y, u) -> (x, I) at rest with the set-point at y, from the derived start state."""
+    import sympy
+
+    x, I = _start_expressions()
+    return sympy.lambdify(
+        [*sympy.symbols("p_1 p_2 p_3 p_4 y u_0")], [x, I.subs({"x": x, "y_sp": sympy.Symbol("y")})], "math"
+    )
+
+
+@cache
+def _start_expressions():
+    """x and I (in x) at rest, with the set-point at the measurement, as SymPy expressions in plain symbols."""
+    import sympy
+
+    found = []
+    for expression in (start.derivative_state(), start.integral_from().subs(start.u_ff, 0)):
+        plain = expression.subs({s: sympy.Symbol(s.name) for s in expression.free_symbols})
+        found.append(plain.subs({sympy.Symbol(c.name): 0, sympy.Symbol("feedforward"): 0}))
+    return found
+
+
+@cache
+def start_formulas() -> tuple[str, str]:
+    """x and I at rest as program text, for any u, y and set-point.
+
+    >>> start_formulas()
+    ('x = p4*y/(1 - p3)', 'I = u - p1*ysp - x + p2*y')
+    """
+    import sympy
+
+    x, I = _start_expressions()
+    top, below = sympy.fraction(x)
+    if below.subs("p_3", 0) < 0:
+        top, below = -top, -below
+    order = ("u_0", "-p_1*y_sp", "-x", "p_2*y")
+    terms = sorted(sympy.Add.make_args(I), key=lambda term: order.index(str(term)))
+    text = " ".join(f"- {written(-t)}" if t.could_extract_minus_sign() else f"+ {written(t)}" for t in terms)
+    return f"x = {written(top)}/({written(below)})", f"I = {text.removeprefix('+ ').replace('u0', 'u')}"
 
 
 def round_down(value: float) -> float:
@@ -61,21 +134,31 @@ def round_down(value: float) -> float:
     return float(f"{next(step * power for step in (5, 2, 1) if step * power <= value * (1 + 1e-9)):.12g}")
 
 
-def sampling_interval(chosen: Evaluation, time_constant: float) -> tuple[float, tuple[str, ...]]:
+def sampling_interval(chosen: Evaluation, time_constant: float, logged: float = 0.0) -> tuple[float, tuple[str, ...]]:
     """A sampling interval [s] for a design, and the rules it follows.
 
     h < T/5 (pid-report, section 5.1); h <= Tf/2, so that the derivative's filter is more than one sample;
-    h wc <= 0.15 at the gain crossover, so that sampling costs little phase.
+    h wc <= 0.15 at the gain crossover, so that sampling costs little phase. logged [s]: the record's interval; where
+    the loop does not need it, the program does not run faster than the measurement was taken.
     """
     pid = chosen.candidate.pid
     bounds = {"a fifth of the process's time constant": time_constant / 5}
-    if pid.Td:
-        bounds["half the filter's time constant"] = pid.Tf / 2
     crossovers = [c.w for c in chosen.loop.margins().gain_crossovers]
     if crossovers:
         bounds["0.15 over the gain crossover frequency"] = PER_CROSSOVER / max(crossovers)
+    needed = min(bounds.values())
+    if pid.Td:
+        bounds["half the filter's time constant"] = pid.Tf / 2
     why = tuple(f"{name.capitalize()} is {bound:.3g} s." for name, bound in bounds.items())
     h = round_down(min(bounds.values()))
+    floor = min(logged, needed)
+    if floor > h:
+        h = round_down(floor)
+        why = (
+            *why,
+            f"The record was taken every {logged:.3g} s: faster readings would bring more noise, not more news.",
+        )
+        return h, (*why, f"h = {h:g} s.")
     return h, (*why, f"The shortest of these, rounded down: h = {h:g} s.")
 
 
@@ -84,19 +167,23 @@ def sampled_program(
     time_constant: float,
     h: float = 0.0,
     limits: tuple[float, float] = (-math.inf, math.inf),
+    rest: tuple[float, float] = (0.0, 0.0),
+    logged: float = 0.0,
+    finer: int = 1,
 ) -> SampledProgram:
-    """The discrete PID of a design. h [s]: 0 has it chosen by `sampling_interval`. limits of u.
+    """The discrete PID of a design. h [s]: 0 has it chosen by `sampling_interval`, divided by `finer`. rest: (u, y).
 
     Raises SettingError for limits out of order or h < 0.
     """
-    from loopbook.controllers.generated import program_gains
-
     why: tuple[str, ...] = ("h was given.",)
     if h == 0:
-        h, why = sampling_interval(chosen, time_constant)
+        h, why = sampling_interval(chosen, time_constant, logged)
+        if finer > 1:
+            h = round_down(h / finer)
+            why = (*why, f"To keep its robustness it is sampled faster than that: h = {h:g} s.")
     settings = PidSettings.of(chosen.candidate.pid, h=h, u_low=limits[0], u_high=limits[1])
     infinite = float("inf")
     numbers = (settings.K, settings.Ti or infinite, settings.Td, settings.Tf, settings.b, h, settings.Tt or infinite)
     gains = {name: float(value) for name, value in program_gains("4.13")(*numbers).items()}
     left = 1 - h / 2 / chosen.delay_margin if math.isfinite(chosen.delay_margin) else 1.0
-    return SampledProgram(settings, gains, why, left)
+    return SampledProgram(settings, gains, why, left, rest)

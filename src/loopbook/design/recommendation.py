@@ -4,10 +4,11 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from derivations.errors import LoopbookError
 from loopbook.design.evaluation import Evaluation, Robustness
 
 
-class AimError(ValueError):
+class AimError(LoopbookError):
     """An aim that is not known, or one that no candidate can serve at all."""
 
 
@@ -15,13 +16,14 @@ class AimError(ValueError):
 class Aim:
     """What is asked of a regulator.
 
-    admits: what a loop must keep, in words and as a function. cost: what is then made smallest, in words and as a
-    function; smaller is better.
+    admits: what a loop must keep, in words and as a function. Ms: the largest of these.
+    cost: what is then made smallest, in words and as a function; smaller is better.
     """
 
     name: str
     keeps: str
     admits: Callable[[Evaluation, float], bool]
+    Ms: float
     smallest: str
     cost: Callable[[Evaluation], float]
 
@@ -31,11 +33,14 @@ def _ms(limit: float) -> Callable[[Evaluation, float], bool]:
 
 
 AIMS = {
-    "robust": Aim("robust", "Ms at most 1.6", _ms(1.6), "the integrated error after a load step", lambda e: e.iae_load),
+    "robust": Aim(
+        "robust", "Ms at most 1.6", _ms(1.6), 1.6, "the integrated error after a load step", lambda e: e.iae_load
+    ),
     "fast": Aim(
         "fast",
         "Ms at most 2 and a phase margin of 30 degrees",
         lambda e, Ms: Ms <= 2.0 and e.phase_margin >= 30,
+        2.0,
         "the product of the integrated errors after a reference and a load step",
         lambda e: e.iae_reference * e.iae_load,
     ),
@@ -43,6 +48,7 @@ AIMS = {
         "no-overshoot",
         "an overshoot of at most 1 % and Ms at most 2",
         lambda e, Ms: e.overshoot <= 1.0 and Ms <= 2.0,
+        2.0,
         "the integrated error after a reference step",
         lambda e: e.iae_reference,
     ),
@@ -50,6 +56,7 @@ AIMS = {
         "quiet",
         "Ms at most 1.6",
         _ms(1.6),
+        1.6,
         "the noise amplification times the integrated error after a load step",
         lambda e: e.noise_gain * e.iae_load,
     ),
@@ -71,6 +78,13 @@ class Recommendation:
     compromise: bool
 
 
+def worst_peak(e: Evaluation, found: Robustness | None) -> float:
+    """Ms of a loop over its model's uncertainty, infinite where a model of it makes the loop unstable."""
+    if found is None or not found.models:
+        return e.Ms
+    return max(e.Ms, found.Ms) if found.stable == found.models else math.inf
+
+
 def recommend(
     evaluations: Sequence[Evaluation], aim: str = "robust", spread: dict[str, Robustness] | None = None
 ) -> Recommendation:
@@ -88,10 +102,7 @@ def recommend(
         raise AimError("no rule gives a stable loop with this process: it needs a design of its own")
 
     def worst(e: Evaluation) -> float:
-        found = spread.get(e.candidate.name)
-        if found is None or not found.models:
-            return e.Ms
-        return max(e.Ms, found.Ms) if found.stable == found.models else math.inf
+        return worst_peak(e, spread.get(e.candidate.name))
 
     admitted = sorted((e for e in stable if wanted.admits(e, worst(e))), key=wanted.cost)
     if admitted:

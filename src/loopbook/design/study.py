@@ -1,38 +1,54 @@
 """From a record or a model to a regulator: the whole design in one object, each part computed when it is asked for."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from loopbook.design import candidates as rules
-from loopbook.design import evaluation
-from loopbook.design.model import Model, ModelError, from_identified, read_toml
+from loopbook.design import evaluation, speed
+from loopbook.design.decision import conditions, curve, decide
+from loopbook.design.limits import Limits, find_limits, rest_input
+from loopbook.design.model import Model, ModelError, from_fit, from_identified
+from loopbook.design.model_file import read_fixed, read_toml, with_fixed
+from loopbook.design.placement import placements
+from loopbook.design.results import results
+from loopbook.design.selection import horizon
+from loopbook.design.speed import time_scale
+from loopbook.experiments.data import FrequencyData
+from loopbook.identification.choice import identify
+from loopbook.records.reading import read_record
+from loopbook.records.summary import line
 
 if TYPE_CHECKING:
     from loopbook.design.placement import Placed
     from loopbook.design.program import SampledProgram
     from loopbook.design.recommendation import Recommendation
+    from loopbook.design.running import Running
+    from loopbook.design.selection import Conditions, Selected
+    from loopbook.design.speed import Speed
     from loopbook.identification.choice import Identified
+    from loopbook.records.record import Record
     from loopbook.response.simulation import Simulation
-    from notebook_reports.display import Table
 
 VARIATIONS = 20
-EXPECTED = (
-    *("Ms", "Mt", "gain_margin", "phase_margin", "delay_margin", "iae_reference", "iae_load"),
-    *("overshoot", "settling", "peak_input", "variation", "noise_gain"),
-)
 
 
 @dataclass(frozen=True)
 class Study:
     """One design.
 
-    data: path of a CSV record or a TOML model. time, input, output: columns of the record, "" to have them found.
-    aim: see `recommendation.AIMS`. u_low, u_high: the actuator's limits, absolute, None for none. h: sampling interval
-    [s], 0 to have it chosen. K180 [y/u], T180 [s]: from a relay or oscillation experiment, 0 where there was none.
-    reference [y], load [u]: the steps of the final simulation, 0 to have them chosen. seed: of the drawn models.
+    data: path of a record (CSV, .xlsx, Parquet) or a TOML model. time, input, output: columns of the record, "" to have
+    them found. aim: see `recommendation.AIMS`. u_low, u_high: the actuator's limits, absolute; None to take them from
+    the record (of a model: none). unlimited: limits that are not given are none, whatever the record went through.
+    h: sampling interval [s], 0 to have it chosen. K180 [y/u], T180 [s]: from a relay or oscillation experiment, 0 where
+    there was none. reference [y], load [u]: the steps of the final simulation, 0 to have them chosen. interval [s]:
+    between the samples of a record without a time column. speed: from 0 (slow) to 1 (fast), and closed_loop: the wanted
+    time constant [s]; at most one of them, None and 0 for a rule's own speed. known: parameters of the model fixed by
+    the user, "K=2, T=30". seed: of the drawn models.
     """
 
     data: str | Path
@@ -47,6 +63,11 @@ class Study:
     T180: float = 0.0
     reference: float = 0.0
     load: float = 0.0
+    interval: float = 0.0
+    speed: float | None = None
+    closed_loop: float = 0.0
+    known: str = ""
+    unlimited: bool = False
     seed: int = 0
 
     def __post_init__(self):
@@ -54,6 +75,8 @@ class Study:
             raise ModelError(f"K180 = {self.K180}, T180 = {self.T180}: an ultimate point needs both, or neither")
         if self.u_low is not None and self.u_high is not None and not self.u_low < self.u_high:
             raise ModelError(f"u_low = {self.u_low} must be below u_high = {self.u_high}")
+        if self.speed is not None and self.closed_loop:
+            raise ModelError("speed and closed loop are two ways to say one thing: give one of them")
 
     @property
     def recorded(self) -> bool:
@@ -61,27 +84,40 @@ class Study:
         return Path(self.data).suffix.lower() != ".toml"
 
     @cached_property
+    def record(self) -> "Record | None":
+        """The record as read; None where a model was given."""
+        return read_record(self.data, self.time, self.input, self.output, self.interval) if self.recorded else None
+
+    @cached_property
     def identified(self) -> "Identified | None":
         """The record with its fitted models; None where a model was given."""
-        from loopbook.identification.choice import identify
-        from loopbook.records.reading import read_csv
-
-        if not self.recorded:
-            return None
-        return identify(read_csv(self.data, self.time or None, self.input or None, self.output or None))
+        return identify(self.record, read_fixed(self.known)) if self.record is not None else None
 
     @cached_property
     def model(self) -> Model:
-        """What is designed for."""
-        from dataclasses import replace
-
-        from loopbook.experiments.data import FrequencyData
-
+        """What is designed for: of a process that is faster one way, the model of that way."""
         measured = FrequencyData(self.K180, self.T180) if self.K180 else None
         if self.identified is not None:
             return from_identified(self.identified, measured)
         model = read_toml(self.data)
+        if self.known:
+            model = with_fixed(model, read_fixed(self.known))
         return replace(model, frequency=measured) if measured else model
+
+    @cached_property
+    def milder(self) -> Model | None:
+        """The model of the other direction, where the process is not the same both ways."""
+        found = self.identified
+        if found is None or found.directions is None:
+            return None
+        return from_fit(found.directions.milder, found.record.source or "the record")
+
+    @cached_property
+    def knob(self) -> "Speed | None":
+        """The wanted speed; None where the rules' own speed is taken."""
+        if self.closed_loop:
+            return speed.at_closed(self.model, self.closed_loop)
+        return None if self.speed is None else speed.at_speed(self.model, self.speed)
 
     @cached_property
     def _rules(self) -> tuple[list[rules.Candidate], list[rules.Refused]]:
@@ -93,27 +129,62 @@ class Study:
         return self._rules[1]
 
     @cached_property
+    def at_knob(self) -> list[evaluation.Evaluation]:
+        """The loops of the rules that the knob turns, at the wanted speed; none where there is no wish."""
+        return self.at_speed(self.knob) if self.knob else []
+
+    def at_speed(self, knob: "Speed", without: str = "none") -> list[evaluation.Evaluation]:
+        """The loops of the rules that the knob turns. without: of those whose name has this in it."""
+        found, _ = rules.candidates(self.model, speed.rules(self.model, knob))
+        return [evaluation.evaluate(self.model, c) for c in found if without not in c.name]
+
+    @cached_property
     def evaluations(self) -> list[evaluation.Evaluation]:
-        """Every rule that applies, its loop measured."""
-        return [evaluation.evaluate(self.model, c) for c in self._rules[0]]
+        """Every rule that applies, its loop measured; first those at the wanted speed."""
+        return [*self.at_knob, *[evaluation.evaluate(self.model, c) for c in self._rules[0]]]
 
     @cached_property
     def spread(self) -> dict[str, evaluation.Robustness]:
         """Each stable loop on models from the confidence region, by the rule's name."""
-        stable = [e.candidate for e in self.evaluations if e.stable]
-        return {c.name: evaluation.robustness(self.model, c, VARIATIONS, self.seed) for c in stable}
+        return self.spread_of(self.evaluations)
+
+    def spread_of(self, loops: list[evaluation.Evaluation]) -> dict[str, evaluation.Robustness]:
+        """The stable ones of some loops on models from the confidence region, by name."""
+        for c in [e.candidate for e in loops if e.stable and e.candidate not in self._robust]:
+            self._robust[c] = evaluation.robustness(self.model, c, VARIATIONS, self.seed, self.milder)
+        return {e.candidate.name: self._robust[e.candidate] for e in loops if e.stable}
 
     @cached_property
-    def recommendation(self) -> "Recommendation":
-        from loopbook.design.recommendation import recommend
+    def _robust(self) -> dict[rules.Candidate, evaluation.Robustness]:
+        return {}
 
-        return recommend(self.evaluations, self.aim, self.spread)
+    @cached_property
+    def curve(self) -> list[tuple["Speed", evaluation.Evaluation]]:
+        """The trade-off along the knob: from slow to fast the PI and the PID that do best after a load step."""
+        return curve(self)
+
+    @property
+    def recommendation(self) -> "Recommendation":
+        return self._decided[0]
+
+    @property
+    def selected(self) -> "Selected":
+        """The recommended loop with the program that runs it."""
+        return self._decided[1]
+
+    @cached_property
+    def conditions(self) -> "Conditions":
+        """What the program has to live with."""
+        return conditions(self)
+
+    @cached_property
+    def _decided(self) -> "tuple[Recommendation, Selected]":
+        """Recommended for the aim, and able to run. Raises RecordError where no regulator can be recommended."""
+        return decide(self)
 
     @cached_property
     def placements(self) -> "list[Placed]":
         """Pole placements for the sampled model, at the given sampling interval or one of their own."""
-        from loopbook.design.placement import placements
-
         return placements(self.model, self.time_constant, self.h)
 
     @cached_property
@@ -121,57 +192,63 @@ class Study:
         """(u, y) at rest before the first step of the record; (0, 0) for a model."""
         if self.identified is None:
             return 0.0, 0.0
-        record, steps = self.identified.record, self.identified.steps
-        return float(record.u[: steps.before].mean()), self.identified.chosen.rest
+        return rest_input(self.identified), self.identified.chosen.rest
+
+    @cached_property
+    def actuator(self) -> Limits:
+        """The actuator's limits, and where they come from."""
+        low, high = self.u_low, self.u_high
+        if self.unlimited:
+            low, high = -math.inf if low is None else low, math.inf if high is None else high
+        return find_limits(low, high, self.identified, self.model)
 
     @property
     def limits(self) -> tuple[float, float]:
         """The actuator's limits, absolute."""
-        return (
-            -math.inf if self.u_low is None else self.u_low,
-            math.inf if self.u_high is None else self.u_high,
-        )
+        return self.actuator.pair
 
-    @cached_property
+    @property
     def program(self) -> "SampledProgram":
         """The chosen regulator as a discrete program with absolute limits."""
-        from loopbook.design.program import sampled_program
+        return self.selected.program
 
-        return sampled_program(self.recommendation.chosen, self.time_constant, self.h, self.limits)
+    @property
+    def running(self) -> "Running":
+        """The program on the model: what it does, in numbers."""
+        return self.selected.running
 
     @property
     def time_constant(self) -> float:
         """The process's time scale [s]: T of its step response, for an integrating process its apparent dead time."""
         data = self.model.step_data
-        return getattr(data, "T", 0.0) or data.L
+        return getattr(data, "T", 0.0) or data.L or time_scale(self.model)
 
     @property
     def horizon(self) -> float:
         """A time [s] in which the chosen loop settles twice: after a reference and after a load step."""
-        chosen = self.recommendation.chosen
-        return 2 * max(1.5 * chosen.settling, 10 * self.model.delay, 2 * self.time_constant)
+        return horizon(self.recommendation.chosen, self.model, self.time_constant)
 
     @cached_property
     def steps(self) -> tuple[float, float]:
-        """(reference [y], load [u]) of the final simulation: as given, or half of what the record saw, or 1 and 1/2."""
+        """(reference [y], load [u]) of the final simulation: as given, or half of what the record saw, or 1 and 1/2.
+
+        The reference goes the way that the record's input drove the output, which the limits taken from it allow.
+        """
         reference, load = self.reference, self.load
-        if self.identified is not None:
-            span = float(self.identified.record.y.max() - self.identified.record.y.min())
-            height = max(abs(size) for _, size in self.identified.steps.list)
-            return reference or span / 2, load or height / 4
+        found = self.identified
+        if found is not None:
+            u = found.record.u - self.rest[0]
+            furthest = float(u[np.argmax(np.abs(u))])
+            way = self.model.gain * furthest if not self.model.integrating else math.copysign(
+                found.chosen.answer, self.model.gain * furthest
+            )  # fmt: skip
+            return reference or way / 2, load or -furthest / 4
         return reference or 1.0, load or 0.5 * (reference or 1.0) / abs(self.model.gain)
 
-    @cached_property
+    @property
     def simulation(self) -> "Simulation":
         """The program on the model within the limits, as deviations from rest."""
-        from dataclasses import replace
-
-        from loopbook.design import limited
-
-        u0 = self.rest[0]
-        settings = self.program.settings
-        shifted = settings.changed(u_low=settings.u_low - u0, u_high=settings.u_high - u0)
-        return limited.run(self.model, replace(self.program, settings=shifted), self.horizon, *self.steps)
+        return self.running.clean
 
     @property
     def best(self) -> list[evaluation.Evaluation]:
@@ -179,30 +256,26 @@ class Study:
         chosen = self.recommendation.chosen
         return [chosen, *[e for e in self.recommendation.admitted if e is not chosen][:4]]
 
+    @property
+    def line(self) -> str:
+        """The record in one line: what was taken for what."""
+        if self.record is None:
+            return f"model: {self.model.source}"
+        return line(self.record, self.identified.steps)
+
+    @property
+    def mind(self) -> list[str]:
+        """What a user has to know, one sentence each."""
+        warnings = self.identified.warnings if self.identified else ()
+        return [*self.actuator.notes, *warnings, *self.recommendation.chosen.candidate.notes]
+
+    @property
+    def cautions(self) -> list[str]:
+        """Of what to mind, what an engineer has to know at the plant: the record's and the limits', not the rules'."""
+        warnings = self.identified.warnings if self.identified else ()
+        lacks = [r for r in self.recommendation.reasons if r.startswith(("Mind", "No setting"))]
+        return [*self.actuator.notes, *warnings, *lacks]
+
     def results(self) -> dict[str, Any]:
-        """The design as plain data: process, rule, the program's numbers, what to expect, what to mind.
-
-        Units: seconds, rad/s, degrees, those of the record. null stands for infinite and for unknown.
-        """
-        chosen, model = self.recommendation.chosen, self.model
-        names = ("gain", "time_constants", "delay", "integrating")
-        process = dict(zip(names, (model.gain, list(model.lags), model.delay, model.integrating), strict=True))
-        expected = {name: getattr(chosen, name) for name in EXPECTED}
-        found = self.identified
-        fit = {"percent": found.chosen.fit, "rms": found.chosen.rmse} if found else None
-        widths = {p.name: p.half_width for p in found.chosen.parameters} if found else None
-        return {
-            "data": Path(self.data).name,
-            "process": {**process, "source": model.source, "fit": fit, "half_widths_95": widths},
-            "aim": self.aim,
-            "rule": chosen.candidate.name,
-            **self.program.data(),
-            "expected": {name: float(v) if math.isfinite(v) else None for name, v in expected.items()},
-            "mind": [*(found.warnings if found else ()), *chosen.candidate.notes],
-        }
-
-    def summary(self) -> "Table":
-        """The design on one page."""
-        from loopbook.design.tables import summary
-
-        return summary(self)
+        """The design as plain data, see `loopbook.design.results`."""
+        return results(self)

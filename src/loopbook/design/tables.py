@@ -8,8 +8,9 @@ from loopbook.design.evaluation import Evaluation, Robustness
 from loopbook.design.program import GAINS, SampledProgram
 from loopbook.design.recommendation import Recommendation
 from loopbook.design.study import Study
+from loopbook.design.words import as_text
+from loopbook.identification.fit import Parameter
 from loopbook.identification.graphical import readings
-from loopbook.identification.least_squares import Parameter
 from notebook_reports.display import Table, number
 
 
@@ -21,10 +22,10 @@ def assumptions(study: Study) -> Table:
     """What the record was taken to be, or where the model comes from."""
     if study.identified is None:
         return Table(
-            ["", "what was given"], [["1", f"A model: {study.model.source}. Nothing was fitted."]], "The model"
+            ["", "what was given"], [["1", f"A model: {as_text(study.model.source)}. Nothing was fitted."]], "The model"
         )
     found = study.identified
-    rows = [[str(i + 1), text] for i, text in enumerate((*found.record.assumptions, *found.steps.notes))]
+    rows = [[str(i + 1), as_text(text)] for i, text in enumerate((*found.record.assumptions, *found.steps.notes))]
     return Table(["", "what was assumed"], rows, "How the record was read", ["right", "left"])
 
 
@@ -55,7 +56,7 @@ def choice(study: Study) -> Table:
     if study.identified is None:
         return Table(["model"], [["The model is taken as exact: the margins below know no uncertainty."]], "The choice")
     found = study.identified
-    rows = [["reason", text] for text in found.reasons] + [["mind", text] for text in found.warnings]
+    rows = [["reason", as_text(text)] for text in found.reasons] + [["mind", as_text(text)] for text in found.warnings]
     marks = ["good"] * len(found.reasons) + ["note"] * len(found.warnings)
     return Table(["", "the choice of the model"], rows, "Why this model", ["left", "left"], (), marks)
 
@@ -77,30 +78,6 @@ def recommendation(found: Recommendation) -> Table:
     mark = "note" if found.compromise else "good"
     caption = f"Recommended for the aim {found.aim.name}: {found.chosen.candidate.name}"
     return Table(["reasons"], rows, caption, ["left"], (), [mark] + [""] * (len(rows) - 1))
-
-
-def summary(study: Study) -> Table:
-    """The design on one page: model, regulator, what to expect."""
-    e, program, found = study.recommendation.chosen, study.program, study.identified
-    pid = e.candidate.pid
-    times = f"$T_i$ = {number(pid.Ti, 4)} s, $T_d$ = {number(pid.Td, 4)} s, $b$ = {number(pid.b, 3)}"
-    margins = f"phase margin {number(e.phase_margin, 3)}°, delay margin {number(e.delay_margin, 3)} s"
-    explains = f", explains {found.chosen.fit:.1f} % of the response" if found else ""
-    rows = [
-        ["process", f"${study.model.latex()}$"],
-        ["known from", f"{study.model.source}{explains}"],
-        ["rule", f"{e.candidate.name}, recommended for the aim {study.aim}"],
-        ["settings", f"$K$ = {number(pid.K, 4)}, {times}"],
-        ["sampling", f"every {number(program.settings.h, 4)} s"],
-        ["robustness", f"$M_s$ = {number(e.Ms, 3)}, {margins}"],
-        ["set-point step", f"overshoot {number(e.overshoot, 3)} %, settled after {number(e.settling, 3)} s"],
-        ["load step", f"integrated error {number(e.iae_load, 3)} for a step of one at the input"],
-    ]
-    marks = [""] * len(rows)
-    for text in found.warnings if found else ():
-        rows.append(["mind", text])
-        marks.append("note")
-    return Table(["", "design"], rows, "The design in short", ["left", "left"], (), marks)
 
 
 def settings(evaluations: Sequence[Evaluation]) -> Table:
@@ -135,7 +112,7 @@ def robustness(evaluations: Sequence[Evaluation], spread: dict[str, Robustness])
         found = spread.get(e.candidate.name)
         row = [e.candidate.name]
         margins = [e.Ms, e.Mt, e.gain_margin, e.phase_margin, e.delay_margin]
-        row += [number(m, 3) for m in margins] if e.stable else ["unstable", *["–"] * 4]
+        row += [number(m, 3) for m in margins] if e.stable else ["not judged" if e.reason else "unstable", *["–"] * 4]
         if known:
             row += [f"{found.stable} of {found.models}", _shown(found.Ms)] if found else ["–", "–"]
         rows.append(row)
@@ -169,6 +146,6 @@ def coefficients(program: SampledProgram) -> Table:
     ]
     rows += [[f"${name}$", GAINS[name], number(value, 6), ""] for name, value in program.gains.items()]
     align = ["left", "left", "right", "left"]
-    share = f"{100 * program.delay_margin_left:.0f} %"
+    share = f"{100 * max(program.delay_margin_left, 0.0):.0f} %"
     left = f"Sampling adds half an interval of dead time and leaves {share} of the delay margin."
     return Table(["", "coefficient", "value", "unit"], rows, "The discrete regulator", align, (*program.why, left))

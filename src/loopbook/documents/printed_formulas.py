@@ -2,46 +2,30 @@
 
     says = "The process is `y(k) = -a_1*y(k-1) + b_3*u(k-3)`."
 
-Names are symbols as written; y, u, r with an argument are signals, k is the integer sample number and z the variable of
-the polynomials in z^-1. Several equations are separated by ``;``.
+Names are symbols as written; y, u, r with an argument are signals, k is the integer sample number, z the variable of
+the polynomials in z^-1, and saturate(v, low, high) limits.
 """
 
-from typing import Any
+import sympy
+from sympy import Expr, MatrixBase, Piecewise
 
+from derivations.algebra.delay_polynomials import K, Z
+from notebook_reports.formula.read import Symbols, read_equations
 from notebook_reports.ledger.printed_data import Claim
 
 
-class FormulaError(ValueError):
-    """A claim's text holds no formula between backticks, or one that cannot be read."""
-
-
-def formulas(claim: Claim) -> list[tuple[Any, Any]]:
+def formulas(claim: Claim) -> list[tuple[Expr | MatrixBase, Expr | MatrixBase | None]]:
     """(left, right) of each equation in the claim's first backticks; right is None for an expression alone.
 
-    A list in square brackets becomes a SymPy Matrix. Raises FormulaError.
+    Raises PrintedDataError where there are no backticks, FormulaError where what they hold is no formula.
 
     >>> formulas(Claim("", "", "row", "Coefficient of $z^5$: `a_1 + c_1 - 1 = -3*q`"))
     [(a_1 + c_1 - 1, -3*q)]
     """
-    parts = claim.says.split("`")
-    if len(parts) < 3:
-        raise FormulaError(f"{claim.id}: no formula between backticks in {claim.says!r}")
-    return [_equation(claim, text) for text in parts[1].split(";")]
+    functions = {name: sympy.Function(name) for name in "yur"} | {"saturate": saturate}
+    return read_equations(claim.formula, Symbols(k=K, z=Z), functions, where=claim.where)
 
 
-def _equation(claim: Claim, text: str) -> tuple[Any, Any]:
-    left, equals, right = text.partition("=")
-    return _read(claim, left), _read(claim, right) if equals else None
-
-
-def _read(claim: Claim, text: str) -> Any:
-    import sympy
-
-    from derivations.algebra.delay_polynomials import K, Z
-
-    known = {name: sympy.Function(name) for name in "yur"} | {"k": K, "z": Z, "C": sympy.Symbol("C")}
-    try:
-        value = sympy.sympify(text.strip(), locals=known, rational=True)
-    except (sympy.SympifyError, SyntaxError, TypeError) as error:
-        raise FormulaError(f"{claim.id}: {text!r} is no formula ({error})") from None
-    return sympy.Matrix(value) if isinstance(value, list) else value
+def saturate(value: Expr, low: Expr, high: Expr) -> Expr:
+    """The value within its limits, by cases."""
+    return Piecewise((high, value > high), (low, value < low), (value, True))

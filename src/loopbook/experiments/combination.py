@@ -6,11 +6,14 @@ alpha, the step response at T63 (`derivations.experiments.two_lags`). `solve` br
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 
+from derivations.experiments import two_lags as d
 from loopbook.experiments.data import FrequencyData, StepData, TwoLagData
 from loopbook.experiments.plant import ExperimentError
 
@@ -20,12 +23,10 @@ EDGE = 1e-6  # what the equation may leave at the ends alpha = 0 and 1, where it
 
 
 @cache
-def _functions(backend: str):
+def _functions(backend: str) -> tuple[Callable[..., Any], ...]:
     """T1(alpha, w, Kp, Ku) as printed and without cancellation, L1(w, T1, T2), e1(T1, T2, L1, T63, tail), the same for
     equal lags, e2 and e3."""
     import sympy
-
-    from derivations.experiments import two_lags as d
 
     tail = sympy.Symbol("tail")
     found = d.residuals(tail)

@@ -38,7 +38,7 @@ class StepData:
     T: float
     L: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive("step data", Kp=self.Kp)
         _time("step data", T=self.T, L=self.L)
         if self.T + self.L == 0:
@@ -57,12 +57,16 @@ class StepData:
 
 @dataclass(frozen=True)
 class IntegratingStepData:
-    """An integrating process from its step response: Kv [y/(u s)], L [s] where the final tangent starts."""
+    """An integrating process from its step response: Kv [y/(u s)], L [s] where the final tangent starts.
+
+    >>> IntegratingStepData(Kv=0.2, L=3)
+    IntegratingStepData(Kv=0.2, L=3)
+    """
 
     Kv: float
     L: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive("step data of an integrating process", Kv=self.Kv)
         _time("step data of an integrating process", L=self.L)
 
@@ -78,7 +82,7 @@ class FrequencyData:
     K180: float
     T180: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive("frequency data", K180=self.K180, T180=self.T180)
 
     @classmethod
@@ -108,27 +112,35 @@ class FrequencyData:
 
 @dataclass(frozen=True)
 class TwoLagData:
-    """Kp e^(-L1 s)/((1 + s T1)(1 + s T2)), T2 <= T1, from a step and a frequency experiment together."""
+    """Kp e^(-L1 s)/((1 + s T1)(1 + s T2)), T2 <= T1, from a step and a frequency experiment together.
+
+    >>> TwoLagData(Kp=2, T1=10, T2=4, L1=3).T2
+    4
+    """
 
     Kp: float
     T1: float
     T2: float
     L1: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive("two-lag data", Kp=self.Kp)
         _time("two-lag data", T1=self.T1, T2=self.T2, L1=self.L1)
 
 
 @dataclass(frozen=True)
 class IntegratingPulseData:
-    """Kv e^(-L1 s)/(s (1 + s T2)) from the response to a short pulse: Kv [y/(u s)], T2 [s], L1 [s]."""
+    """Kv e^(-L1 s)/(s (1 + s T2)) from the response to a short pulse: Kv [y/(u s)], T2 [s], L1 [s].
+
+    >>> IntegratingPulseData(Kv=0.2, T2=4, L1=3).step
+    IntegratingStepData(Kv=0.2, L=7)
+    """
 
     Kv: float
     T2: float
     L1: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive("pulse data", Kv=self.Kv)
         _time("pulse data", T2=self.T2, L1=self.L1)
 

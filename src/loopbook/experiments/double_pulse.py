@@ -6,10 +6,12 @@ The formulas come from `derivations.experiments.double_pulse.estimate` (the repo
 down).
 """
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
+from derivations.experiments import double_pulse as d
 from loopbook.experiments.data import StepData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, settling_horizon, smooth
 from loopbook.records.record import Record
@@ -17,17 +19,17 @@ from loopbook.records.steps import noise_level
 
 
 @cache
-def _functions():
+def _functions() -> list[Callable[..., float]]:
     import sympy
-
-    from derivations.experiments import double_pulse as d
 
     found = d.estimate()
     arguments = (d.u_a, d.T_p, d.y_max, d.y_min, d.t_max, d.t_min)
     return [sympy.lambdify(arguments, e, "math") for e in (found.K_p, found.T, found.L_from_max, found.L_from_min)]
 
 
-def solve(u_a: float, T_p: float, y_max: float, y_min: float, t_max: float, t_min: float):
+def solve(
+    u_a: float, T_p: float, y_max: float, y_min: float, t_max: float, t_min: float
+) -> tuple[float, float, float, float]:
     """Kp, T and the two L from what was read off; times count from the first pulse.
 
     Raises ExperimentError unless 0 < -y_min < y_max, which a first-order process with dead time always gives.
@@ -41,7 +43,8 @@ def solve(u_a: float, T_p: float, y_max: float, y_min: float, t_max: float, t_mi
             f"y_max = {y_max:.4g}, y_min = {y_min:.4g}: a first-order process gives 0 < -y_min < y_max; make the "
             "pulses longer than the dead time, or use the step or relay experiment"
         )
-    return tuple(float(f(u_a, T_p, y_max, y_min, t_max, t_min)) for f in _functions())
+    K_p, T, *L = (float(f(u_a, T_p, y_max, y_min, t_max, t_min)) for f in _functions())
+    return K_p, T, L[0], L[1]
 
 
 def run(plant: Plant, width: float, amplitude: float = 1.0, horizon: float | None = None) -> Record:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from loopbook.numerics.state_space import observer_form
 from loopbook.process.transfer_function import Process
 
 OCTAVE = 32  # instants per doubling of the spacing
@@ -19,8 +20,6 @@ class ExactResponse:
 
     def __init__(self, process: Process, horizon: float):
         from scipy.linalg import expm
-
-        from loopbook.numerics.state_space import observer_form
 
         plant = observer_form(process.den, [process.num])
         n = len(plant.A)

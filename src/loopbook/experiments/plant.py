@@ -9,9 +9,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from loopbook.numerics.signals import Signal
+from loopbook.numerics.step_response import open_loop_step
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
 from loopbook.refusal import Refusal
@@ -29,7 +32,7 @@ class Estimate:
     assumed: what the numbers rest on, one sentence each. record: the experiment itself.
     """
 
-    data: object
+    data: Any
     marks: dict[str, float]
     assumed: tuple[str, ...]
     record: Record = field(repr=False)
@@ -50,7 +53,7 @@ class Plant:
     seed: int = 0
     samples: int = 4001
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.low < 0 < self.high:
             raise ExperimentError(f"limits low = {self.low}, high = {self.high}: the working point 0 must lie between")
         if not self.noise >= 0:
@@ -60,10 +63,8 @@ class Plant:
     def _responses(self) -> dict:
         return {}
 
-    def step_response(self, horizon: float, frequency: float = 0.0, phase: float = 0.0):
+    def step_response(self, horizon: float, frequency: float = 0.0, phase: float = 0.0) -> Signal:
         """The response to a step (frequency 0) or to sin(w t + phase) switched on at 0; a `Signal` on [0, horizon]."""
-        from loopbook.numerics.step_response import open_loop_step
-
         key = horizon, frequency, phase
         if key not in self._responses:
             source = self.process.rational
@@ -74,7 +75,7 @@ class Plant:
             self._responses[key] = open_loop_step(source, horizon).delayed(self.process.delay)
         return self._responses[key]
 
-    def clip(self, u):
+    def clip(self, u: Any) -> Any:
         """The input that gets through the actuator."""
         return np.clip(u, self.low, self.high)
 

@@ -7,12 +7,15 @@ stands where the process's phase is arcsin(epsilon/ya) short of -180 degrees; th
 """
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
+from derivations.experiments import describing_function as d
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant
+from loopbook.process.frequency_response import NoSuchFrequency, ultimate
 from loopbook.records.record import Record
 from loopbook.records.steps import noise_level
 
@@ -22,10 +25,8 @@ SAME = 0.03  # how much the last periods may differ
 
 
 @cache
-def _process_gain():
+def _process_gain() -> Callable[..., float]:
     import sympy
-
-    from derivations.experiments import describing_function as d
 
     return sympy.lambdify((d.y_a, d.u_a), d.process_gain(), "math")
 
@@ -93,8 +94,6 @@ def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: 
 
 
 def _horizon(plant: Plant) -> float:
-    from loopbook.process.frequency_response import NoSuchFrequency, ultimate
-
     try:
         return 14 * ultimate(plant.process).T180
     except NoSuchFrequency:

@@ -8,10 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from loopbook.controllers.regulator import Regulator
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, smooth
+from loopbook.process.frequency_response import NoSuchFrequency, ultimate
 from loopbook.records.record import Record
 from loopbook.records.steps import noise_level
+from loopbook.response.closed_loop import closed_loop_step
 
 STEADY = 0.05  # what the amplitude may change from one period to the next
 
@@ -22,9 +25,6 @@ def run(plant: Plant, gain: float, step: float = 1.0, horizon: float | None = No
     Raises ExperimentError where the actuator's limits are reached, for then the amplitude is the actuator's: make the
     step smaller.
     """
-    from loopbook.controllers.regulator import Regulator
-    from loopbook.response.closed_loop import closed_loop_step
-
     horizon = horizon or _horizon(plant)
     y, u = closed_loop_step(plant.process, Regulator.of(float(gain)), "reference", horizon)
     (_, most), (_, least) = u.maximum(), u.minimum()
@@ -38,8 +38,6 @@ def run(plant: Plant, gain: float, step: float = 1.0, horizon: float | None = No
 
 
 def _horizon(plant: Plant) -> float:
-    from loopbook.process.frequency_response import NoSuchFrequency, ultimate
-
     try:
         return 12 * ultimate(plant.process).T180
     except NoSuchFrequency as error:

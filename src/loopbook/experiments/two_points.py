@@ -5,8 +5,11 @@
 Both instants count from the step of the input.
 """
 
+from collections.abc import Callable
 from functools import cache
+from typing import Any
 
+from derivations.experiments import two_point_fit as f
 from loopbook.experiments.data import DataError, StepData
 
 PARTS = (0.632, 0.283)
@@ -14,10 +17,8 @@ PARTS = (0.632, 0.283)
 
 
 @cache
-def _formulas():
+def _formulas() -> Callable[..., Any]:
     import sympy
-
-    from derivations.experiments import two_point_fit as f
 
     rules = f.fit_283_632()
     return sympy.lambdify((f.t1, f.t2), [rules[f.T], rules[f.T0]], "math")

@@ -3,9 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from loopbook.identification.choice import Identified
 from loopbook.identification.choice import identify as identify_record
-from loopbook.identification.least_squares import Fit, fit_structure
+from loopbook.identification.fit import Fit
+from loopbook.identification.least_squares import fit_structure
 from loopbook.identification.models import FIRST_ORDER, INTEGRATING, INTEGRATING_LAG, SECOND_ORDER
 from loopbook.records.record import Record, RecordError
 
@@ -41,9 +44,9 @@ def identify(
     if isinstance(t, Record):
         record: Any = t
     elif u is None or y is None:
-        raise RecordError("identify takes t, u and y, or a record that read_csv made")
+        raise RecordError("identify takes t, u and y, or a record that read_record made")
     else:
-        record = Record(t, u, y)
+        record = Record(np.asarray(t), np.asarray(u), np.asarray(y))
     if not model:
         return identify_record(record)
     if model not in MODELS:

@@ -1,18 +1,23 @@
 """Which model a record supports, and why, in words an engineer can argue with."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from loopbook.identification.least_squares import Fit, fit_all
-from loopbook.identification.models import FIRST_ORDER, INTEGRATING, SECOND_ORDER, Structure
+from loopbook.identification import diagnosis
+from loopbook.identification.directions import CLEARLY_DIFFERENT, Directions, fit_directions
+from loopbook.identification.fit import Fit
+from loopbook.identification.least_squares import fit_all
+from loopbook.identification.models import FIRST_ORDER, SECOND_ORDER, Structure
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record, RecordError
-from loopbook.records.steps import Steps
+from loopbook.records.steps import Steps, find_steps
 
 CLEARLY_BETTER = 10.0  # Akaike's criterion: a difference beyond 10 leaves the other model no support
 POOREST_FIT = 40.0  # percent
+GOOD_FIT, PATTERN = 97.0, 0.5  # percent; correlation of residuals that shows a pattern
 
 
 @dataclass(frozen=True)
@@ -21,6 +26,7 @@ class Identified(ShownAsTable):
 
     criteria: Akaike's criterion of each structure relative to the best, all with the same effective number of samples.
     reasons: why this one. warnings: what a user of the model has to know; empty where nothing is to be said.
+    directions: a model for each direction of the output, where they differ; `chosen` is then the worse one.
     """
 
     record: Record
@@ -30,6 +36,7 @@ class Identified(ShownAsTable):
     chosen: Fit
     reasons: tuple[str, ...]
     warnings: tuple[str, ...]
+    directions: Directions | None = None
 
     @property
     def process(self) -> Process:
@@ -44,6 +51,23 @@ class Identified(ShownAsTable):
         return "\n".join([str(self.chosen), *self.reasons, *(f"mind: {text}" for text in self.warnings)])
 
 
+def _size(fit: Fit) -> int:
+    """How many numbers a fit took."""
+    beside = {"rest": 1, "drift": 2, "start": 1 + max(fit.structure.lags, 1)}[fit.nuisance]
+    return len(fit.parameters) + beside + len(fit.effects)
+
+
+def _criterion(fit: Fit, size: int, effective: float) -> float:
+    p = min(size, effective - 2.5)
+    return float(effective * np.log(max(fit.rmse, 1e-300) ** 2) + 2 * p * effective / (effective - p - 1))
+
+
+def _effective(fits: list[Fit], n: int) -> float:
+    """How many independent samples n are worth, by the correlation of the best fit's residuals."""
+    r = min(fits, key=lambda fit: fit.rmse).correlation
+    return max(n * (1 - r) / (1 + r), 12.0)
+
+
 def _criteria(fits: dict[Structure, Fit], n: int) -> dict[Structure, float]:
     """Akaike's corrected criterion of each fit, less the smallest.
 
@@ -51,14 +75,8 @@ def _criteria(fits: dict[Structure, Fit], n: int) -> dict[Structure, float]:
 
     with the correlation r of the best fit's residuals for all, so that the criteria count the same samples.
     """
-    r = min(fits.values(), key=lambda fit: fit.rmse).correlation
-    effective = max(n * (1 - r) / (1 + r), 12.0)
-
-    def criterion(fit: Fit) -> float:
-        p = len(fit.parameters) + 1
-        return effective * np.log(max(fit.rmse, 1e-300) ** 2) + 2 * p * effective / (effective - p - 1)
-
-    values = {structure: float(criterion(fit)) for structure, fit in fits.items()}
+    effective = _effective(list(fits.values()), n)
+    values = {structure: _criterion(fit, _size(fit), effective) for structure, fit in fits.items()}
     return {structure: value - min(values.values()) for structure, value in values.items()}
 
 
@@ -67,35 +85,110 @@ def determined(fit: Fit) -> bool:
     return all(p.half_width < abs(p.value) for p in fit.parameters[:-1])
 
 
-def identify(record: Record) -> Identified:
+def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identified:
     """Fit every structure and choose the simplest that no other one clearly beats.
 
-    Raises RecordError where no step is found, the output does not answer, or no model explains the response.
+    fixed: parameters by name that are not fitted. Raises RecordError with the reason where no step is found, the output
+    does not answer, or no model can be relied on.
     """
-    steps, fits = fit_all(record)
-    criteria = _criteria(fits, len(record.time))
+    _refuse(diagnosis.saturated(record))
+    steps = find_steps(record)
+    _, fits = fit_all(record, steps, fixed=fixed)
+    if not fits:
+        raise RecordError(f"no model has the parameters {', '.join(fixed or {})} together; fix K, T (or T1, T2) and L")
+    fits = _started_off_rest(record, steps, fits, fixed)
+    n = int(record.used.sum())
+    criteria = _criteria(fits, n)
+    best = min(fits.values(), key=lambda fit: fit.rmse)
+    _refuse(diagnosis.closed_loop(record) if best.fit < GOOD_FIT else "")
     usable = [s for s in fits if determined(fits[s])]
-    if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
-        best = max(fits.values(), key=lambda fit: fit.fit)
-        raise RecordError(
-            f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of it; "
-            "was something else disturbing the process, or is the response not that of a step?"
-        )
+    first = fits.get(FIRST_ORDER)
+    directions = _directions(record, steps, first, best, n) if first and not fixed else None
+    if directions is None:
+        _refuse(diagnosis.underdamped(record, steps, best))
+        _refuse(diagnosis.asymmetric(record, steps, best) if best.fit < GOOD_FIT else "")
+        _refuse(diagnosis.drift_explains(record, best))
+        _refuse(diagnosis.below_noise(best, steps))
+        if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
+            _refuse(diagnosis.below_sample(record, best) if best.fit >= POOREST_FIT else "")
+            _refuse(diagnosis.not_at_rest(record, steps))
+            _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
+            raise RecordError(
+                f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of "
+                "it; was something else disturbing the process, or is the response not that of a step?"
+            )
+        chosen = _simplest(fits, criteria, usable)
+    else:
+        chosen = first.structure
+        fits[chosen] = directions.worse
+        criteria = _criteria(fits, n)
+    fit = fits[chosen]
+    _refuse(diagnosis.below_sample(record, fit))
+    reasons = _reasons(fits, criteria, chosen, usable) if directions is None else _both(directions)
+    warnings = tuple(_warnings(fit, fits, steps))
+    return Identified(record, steps, fits, criteria, fit, tuple(reasons), warnings, directions)
+
+
+def _refuse(reason: str) -> None:
+    if reason:
+        raise RecordError(reason)
+
+
+def _simplest(fits: dict[Structure, Fit], criteria: dict[Structure, float], usable: list[Structure]) -> Structure:
     least = min(criteria[s] for s in usable)
-    complexity = {s: len(fits[s].parameters) for s in usable}
-    chosen = min(
-        (s for s in usable if criteria[s] - least <= CLEARLY_BETTER), key=lambda s: (complexity[s], criteria[s])
-    )
-    return Identified(
-        *(record, steps, fits, criteria, fits[chosen]),
-        tuple(_reasons(fits, criteria, chosen, usable)),
-        tuple(_warnings(fits[chosen], fits, steps)),
-    )
+    near = [s for s in usable if criteria[s] - least <= CLEARLY_BETTER]
+    return min(near, key=lambda s: (len(fits[s].parameters), criteria[s]))
+
+
+def _started_off_rest(record: Record, steps: Steps, fits: dict[Structure, Fit], fixed) -> dict[Structure, Fit]:
+    """The same fits with the state at the first sample estimated, where that explains the record clearly better."""
+    best = min(fits.values(), key=lambda fit: fit.rmse)
+    if best.nuisance == "rest" and (best.fit > GOOD_FIT or best.correlation < PATTERN):
+        return fits
+    lagging = {s: fit for s, fit in fits.items() if s.lags}
+    if not lagging:
+        return fits
+    _, others = fit_all(record, steps, "start", fixed)
+    others = {s: fit for s, fit in others.items() if s in lagging}
+    n = int(record.used.sum())
+    effective = _effective([*fits.values(), *others.values()], n)
+    better = min(others.values(), key=lambda fit: fit.rmse)
+    gain = _criterion(best, _size(best), effective) - _criterion(better, _size(better), effective)
+    return {**fits, **others} if gain > CLEARLY_BETTER else fits
+
+
+def _directions(record: Record, steps: Steps, first: Fit, best: Fit, n: int) -> Directions | None:
+    """A model per direction, where it explains the record clearly better than any symmetric one."""
+    if best.correlation < PATTERN and best.fit > GOOD_FIT:
+        return None
+    found = fit_directions(record, steps, first)
+    if found is None:
+        return None
+    directions, size = found
+    up, down = directions.up.lags[0], directions.down.lags[0]
+    effective = _effective([best, directions.up], n)
+    gain = _criterion(best, _size(best), effective) - _criterion(directions.up, size, effective)
+    separate = abs(up - down) > max(f.parameter("T").half_width for f in (directions.up, directions.down))
+    different = max(up, down) > CLEARLY_DIFFERENT * min(up, down) and separate
+    return directions if different and gain > CLEARLY_BETTER and directions.up.fit > 80 else None
+
+
+def _both(directions: Directions) -> list[str]:
+    up, down = directions.up, directions.down
+    return [
+        f"The process is not the same both ways: T = {up.lags[0]:.3g} s while the output rises, {down.lags[0]:.3g} s "
+        f"while it falls. A first-order model for each explains {up.fit:.1f} % of the response.",
+        f"The design is for the worse one, T = {directions.worse.lags[0]:.3g} s, and is checked on the other.",
+    ]
 
 
 def _reasons(fits, criteria, chosen, usable) -> list[str]:
     fit = fits[chosen]
     reasons = [f"{chosen.name.capitalize()} explains {fit.fit:.1f} % of the response (rms residual {fit.rmse:.3g})."]
+    if fit.nuisance == "start":
+        reasons.append("The record starts off rest; the state at its first sample was estimated along with the model.")
+    for name, effect in fit.effects.items():
+        reasons.append(f"{name} moves too; its effect (gain {effect:.3g}) was estimated along with the model.")
     for other in (s for s in fits if s is not chosen):
         if other not in usable:
             reasons.append(f"{other.name.capitalize()}: the record does not determine its parameters.")
@@ -121,13 +214,16 @@ def _warnings(fit: Fit, fits: dict[Structure, Fit], steps: Steps) -> list[str]:
     if gain.half_width > 0.2 * abs(gain.value):
         found.append(f"The gain is uncertain by {100 * gain.half_width / abs(gain.value):.0f} %.")
     delay = fit.parameters[-1]
-    if delay.value < delay.half_width:
+    if 0 < delay.value < delay.half_width:
         found.append(
             f"The dead time ({delay.value:.3g} s) cannot be told from zero (± {delay.half_width:.2g} s): rules that "
             "divide by L would ask for gains the data do not support."
         )
-    if fit.structure is FIRST_ORDER and fit.correlation > 0.9 and fits[SECOND_ORDER].rmse < 0.8 * fit.rmse:
+    if delay.value == 0:
+        found.append("No dead time was seen: it is below half a sampling interval, and the model has none.")
+    second = fits.get(SECOND_ORDER)
+    if fit.structure is FIRST_ORDER and fit.correlation > 0.9 and second and second.rmse < 0.8 * fit.rmse:
         found.append("The residuals have structure: a second lag may be there.")
-    if fit.structure is not INTEGRATING and fit.fit < 80:
+    if fit.fit < 80:
         found.append(f"The model leaves {100 - fit.fit:.0f} % of the response unexplained.")
     return found

@@ -9,7 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from loopbook.experiments.plant import smooth
+from loopbook.experiments import integrating_step, step, two_points
+from loopbook.experiments.data import DataError
+from loopbook.experiments.plant import ExperimentError, smooth
 from loopbook.records.record import Record
 from loopbook.records.steps import find_steps
 
@@ -33,8 +35,6 @@ def two_point(record: Record) -> dict[str, float]:
     The final level is the mean of the last tenth of the record. Raises ExperimentError where the input is no single
     step or the output does not settle, DataError where the response is faster at first than a lag.
     """
-    from loopbook.experiments import step, two_points
-
     marks = step.estimate(record).marks  # refuses what has no final level
     way = (record.y - marks["before"]) / (marks["after"] - marks["before"])
     rising = np.maximum.accumulate(smooth(way, 5))
@@ -71,9 +71,6 @@ def readings(record: Record) -> list[Reading]:
     record = first_step(record)
     sign = -1.0 if _falls(record) else 1.0
     record = replace(record, u=sign * record.u)
-    from loopbook.experiments import integrating_step, step
-    from loopbook.experiments.data import DataError
-    from loopbook.experiments.plant import ExperimentError
 
     def tangent() -> dict[str, float]:
         data = step.estimate(record).data

@@ -1,199 +1,281 @@
 """Least squares on the exact dead-time response, with intervals that admit what the residuals show.
 
-    minimise sum_k ( y(t_k) - y0 - d t_k - K g(t_k; T, L) )^2
+    minimise sum_k ( y(t_k) - y0 - d t_k - K g(t_k; T, L) - ... )^2
 
-y0 (rest), d (drift, only where the record before the step shows one) and K enter linearly and are eliminated; the time
-constants and the dead time are searched from the best points of a grid, so that the non-convex dead time cannot trap
-the search.
+y0 (rest), d (drift, only where the record before the step shows one), what is left of a start off rest, the effect of
+further inputs and K enter linearly and are eliminated; the time constants and the dead time are searched from the best
+points of a grid, so that the non-convex dead time cannot trap the search. Any of K, T1, T2, L may be fixed beforehand.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 
 from loopbook.identification import intervals
+from loopbook.identification.fit import Fit, Parameter
 from loopbook.identification.models import STRUCTURES, Structure
-from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps, find_steps
 
 CONFIDENCE = 0.95
+NO_DELAY = 0.5  # of a sampling interval: a shorter dead time is none
+WELL_POSED = 1e-6  # of the scaled normal equations' determinant
+NUISANCES = ("rest", "drift", "start")
 
 
-@dataclass(frozen=True)
-class Parameter:
-    """An estimate with its half-width of the 95 % interval, in the parameter's unit."""
+class Problem:
+    """One structure on one record: residuals for given lags and dead time, the rest eliminated."""
 
-    name: str
-    value: float
-    half_width: float
+    def __init__(self, record: Record, structure: Structure, steps: Steps, nuisance: str, fixed: Mapping[str, float]):
+        self.record, self.structure, self.steps, self.nuisance, self.fixed = record, structure, steps, nuisance, fixed
+        self.used = record.used
+        self.time, self.y = record.time[self.used], record.y[self.used]
+        self.length = float(record.time[-1] - steps.list[0][0])
+        self.gain = fixed.get("Kv" if structure.integrating else "Kp", fixed.get("K"))
+        self.others = {o.name: changes for o in record.others if (changes := _changes(record.time, o.values))}
 
-    @property
-    def interval(self) -> tuple[float, float]:
-        return self.value - self.half_width, self.value + self.half_width
+    def columns(self, lags: tuple[float, ...], delay: float) -> np.ndarray:
+        """What is eliminated beside the gain: rest, drift or start, further inputs; shape (n, m)."""
+        found = [np.ones(len(self.time))]
+        if self.nuisance == "drift":
+            found.append(self.time)
+        elif self.nuisance == "start":
+            found += [np.exp(-(self.time - self.time[0]) / T) for T in lags or (self.length,)]
+        found += [self.structure.response(self.time, steps, lags, delay) for steps in self.others.values()]
+        return np.column_stack(found)
+
+    def eliminated(self, lags, delay) -> tuple[np.ndarray, np.ndarray]:
+        """(residuals, coefficients), the gain being the last coefficient."""
+        answer = self.structure.response(self.time, self.steps.list, lags, delay)
+        columns = self.columns(lags, delay)
+        if self.gain is not None:
+            target = self.y - self.gain * answer
+            coefficients = linear(columns, target)
+            return target - columns @ coefficients, np.append(coefficients, self.gain)
+        basis = np.column_stack([columns, answer])
+        coefficients = linear(basis, self.y)
+        return self.y - basis @ coefficients, coefficients
+
+    def lags(self, theta: np.ndarray) -> tuple[float, ...]:
+        """Time constants from the search variables: log T, then the ratio T2/T1 in (0, 1]."""
+        if self.structure.lags == 0:
+            return ()
+        first = float(np.exp(theta[0]))
+        if self.structure.lags == 1:
+            return (first,)
+        return (first, min(self.fixed.get("T2", first * float(theta[1])), first))
+
+    def pinned(self) -> dict[int, float]:
+        """Search variables that are fixed, by their place."""
+        T = self.fixed.get("T", self.fixed.get("T1"))
+        found = {0: float(np.log(T))} if T and self.structure.lags else {}
+        if "T2" in self.fixed and self.structure.lags == 2:
+            found[1] = 0.5
+        if "L" in self.fixed:
+            found[self.structure.lags] = self.fixed["L"]
+        return found
+
+    def starts(self) -> np.ndarray:
+        """A grid of search starts: dead times from none to half the record, lags from one sample to three records."""
+        sampling = self.record.sampling
+        delays = np.concatenate([[0.0], np.geomspace(min(sampling, 0.4 * self.length), 0.5 * self.length, 11)])
+        logs = np.log(np.geomspace(max(sampling, self.length / 500), 3 * self.length, 12))
+        grids = {0: [delays], 1: [logs, delays], 2: [logs, (0.15, 0.6), delays]}[self.structure.lags]
+        grids = [[self.pinned()[i]] if i in self.pinned() else grid for i, grid in enumerate(grids)]
+        return np.array(np.meshgrid(*grids, indexing="ij")).reshape(len(grids), -1).T
+
+    def rough_cost(self, theta: np.ndarray) -> float:
+        """The sum of squares with the rest (and a drift) alone beside the gain: enough to compare starts.
+
+        Further inputs are not small beside it: with these nothing is left out.
+        """
+        if self.others:
+            return float(np.sum(self.eliminated(self.lags(theta), float(theta[-1]))[0] ** 2))
+        answer = self.structure.response(self.time, self.steps.list, self.lags(theta), float(theta[-1]))
+        answer = answer - self._beside @ (self._beside.T @ answer)
+        if self.gain is not None:
+            return float(np.sum((self._resting - self.gain * answer) ** 2))
+        size = float(answer @ answer)
+        return float(self._resting @ self._resting) - (float(self._resting @ answer) ** 2 / size if size > 0 else 0.0)
+
+    @cached_property
+    def _beside(self) -> np.ndarray:
+        columns = [np.ones(len(self.time)), *([self.time] if self.nuisance == "drift" else [])]
+        return np.linalg.qr(np.column_stack(columns))[0]
+
+    @cached_property
+    def _resting(self) -> np.ndarray:
+        return self.y - self._beside @ (self._beside.T @ self.y)
+
+    def solve(self) -> tuple[tuple[float, ...], float]:
+        """(lags, dead time) of the least squares."""
+        from scipy.optimize import least_squares
+
+        scale = float(np.std(self.y)) or 1.0
+        starts, pinned = self.starts(), self.pinned()
+        free = [i for i in range(starts.shape[1]) if i not in pinned]
+
+        def residuals(theta: np.ndarray) -> np.ndarray:
+            return self.eliminated(self.lags(theta), float(theta[-1]))[0] / scale
+
+        def moved(part: np.ndarray, start: np.ndarray) -> np.ndarray:
+            whole = start.copy()
+            whole[free] = part
+            return residuals(whole)
+
+        if not free:
+            return self.lags(starts[0]), float(starts[0][-1])
+        costs = np.array([self.rough_cost(theta) for theta in starts])
+        lower = np.array([*[np.log(self.record.sampling / 20), 1e-3][: self.structure.lags], 0.0])[free]
+        upper = np.array([*[np.log(30 * self.length), 1.0][: self.structure.lags], 0.9 * self.length])[free]
+        found = []
+        for i in _apart(costs, starts):
+            start = starts[i]
+            inside = np.clip(start[free], lower + 1e-9, upper - 1e-9)
+            solved = least_squares(moved, inside, bounds=(lower, upper), args=(start,))
+            found.append((solved.cost, i, solved.x))
+        _, i, part = min(found, key=lambda f: f[0])
+        theta = starts[i].copy()
+        theta[free] = part
+        return self.lags(theta), float(theta[-1])
 
 
-@dataclass(frozen=True)
-class Fit(ShownAsTable):
-    """One fitted model.
-
-    parameters: gain first (Kp or Kv), then time constants, then dead time L. residuals: shape (n,). fit: percentage
-    100 (1 - |residual| / |y - mean|). rmse: root mean square residual. correlation: of neighbouring residuals.
-    settled: how many time constants were recorded after the last step (infinite for integrating models).
-    covariance: of (gain, lags, L).
+def linear(columns: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Coefficients of the least squares, shape (m,): by the normal equations of scaled columns where those are well
+    posed, which is four times as fast for a few columns.
     """
-
-    structure: Structure
-    parameters: tuple[Parameter, ...]
-    rest: float
-    drift: float
-    residuals: np.ndarray
-    fit: float
-    rmse: float
-    correlation: float
-    settled: float
-    covariance: np.ndarray
-
-    @property
-    def gain(self) -> float:
-        return self.parameters[0].value
-
-    @property
-    def lags(self) -> tuple[float, ...]:
-        return tuple(p.value for p in self.parameters[1:-1])
-
-    @property
-    def delay(self) -> float:
-        return self.parameters[-1].value
-
-    @property
-    def process(self):
-        """The model as a Process."""
-        return self.structure.process(self.gain, self.lags, self.delay)
-
-    def table(self) -> PlainTable:
-        """The parameters with the half-widths of their 95 % intervals."""
-        rows = [[p.name, p.value, p.half_width] for p in self.parameters]
-        return PlainTable(["parameter", "value", "+- (95 %)"], rows)
-
-    def __str__(self) -> str:
-        said = f"explains {self.fit:.1f} % of the response (rms residual {self.rmse:.3g})"
-        return f"{self.structure.name}, {said}\n{self.table()}"
-
-    def parameter(self, name: str) -> Parameter:
-        return next(p for p in self.parameters if p.name == name)
+    sizes = np.sqrt(np.einsum("ij,ij->j", columns, columns))
+    if (sizes > 0).all():
+        scaled = columns / sizes
+        gram = scaled.T @ scaled
+        if len(sizes) == 1 or np.linalg.det(gram) > WELL_POSED:
+            return np.linalg.solve(gram, scaled.T @ y) / sizes
+    return np.linalg.lstsq(columns, y, rcond=None)[0]
 
 
-def _basis(record: Record, columns: np.ndarray, structure: Structure, steps: Steps, lags, delay) -> np.ndarray:
-    return np.column_stack([columns, structure.response(record.time, steps.list, lags, delay)])
+def _apart(costs: np.ndarray, starts: np.ndarray) -> list[int]:
+    """The three best starts that are not neighbours in all their variables."""
+    chosen: list[int] = []
+    for i in np.argsort(costs, kind="stable")[:12].tolist():
+        if all(np.sum(~np.isclose(starts[i], starts[j])) > 1 for j in chosen) or starts.shape[1] == 1:
+            chosen.append(i)
+        if len(chosen) == 3:
+            break
+    return chosen
 
 
-def _projected(y: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Residuals and coefficients after the linear parameters are eliminated."""
-    coefficients, *_ = np.linalg.lstsq(basis, y, rcond=None)
-    return y - basis @ coefficients, coefficients
+def _changes(time: np.ndarray, values: np.ndarray) -> list[tuple[float, float]]:
+    """Every change of a further input as a step."""
+    moves = np.flatnonzero(np.diff(values) != 0)
+    return [(float(time[k + 1]), float(values[k + 1] - values[k])) for k in moves]
 
 
-def _lags(structure: Structure, theta: np.ndarray) -> tuple[float, ...]:
-    """Time constants from the search variables: log T, then the ratio T2/T1 in (0, 1]."""
-    if structure.lags == 0:
-        return ()
-    first = float(np.exp(theta[0]))
-    return (first,) if structure.lags == 1 else (first, first * float(theta[1]))
-
-
-def _starts(structure: Structure, length: float, sampling: float) -> np.ndarray:
-    """A grid of search starts: dead times from none to half the record, lags from one sample to three records."""
-    delays = np.concatenate([[0.0], np.geomspace(sampling, 0.5 * length, 11)])
-    logs = np.log(np.geomspace(max(sampling, length / 500), 3 * length, 12))
-    ratios = (0.15, 0.6)
-    grids = {0: [delays], 1: [logs, delays], 2: [logs, ratios, delays]}[structure.lags]
-    return np.array(np.meshgrid(*grids, indexing="ij")).reshape(len(grids), -1).T
-
-
-def fit_structure(record: Record, structure: Structure, steps: Steps | None = None) -> Fit:
+def fit_structure(
+    record: Record,
+    structure: Structure,
+    steps: Steps | None = None,
+    nuisance: str | None = None,
+    fixed: Mapping[str, float] | None = None,
+) -> Fit:
     """Fit one structure to a record; see the module for the problem that is solved.
 
-    Intervals are those of the linearised problem, see `intervals`: a model that leaves structure in its residuals, or a
-    quantised signal, gets wider ones.
+    nuisance: of `NUISANCES`, None has it chosen (drift where the record before the first step shows one). fixed: values
+    by name (K, T or T1, T2, L) that are not fitted. A dead time below half a sampling interval is none. Intervals are
+    those of the linearised problem, see `intervals`: a model that leaves structure in its residuals, or a quantised
+    signal, gets wider ones.
     """
-    from scipy.optimize import least_squares
-
     steps = steps or find_steps(record)
-    length = float(record.time[-1] - steps.list[0][0])
-    columns = np.ones((len(record.time), 1))
-    if _drifts(record, steps):
-        columns = np.column_stack([columns, record.time])
-    scale = float(np.std(record.y)) or 1.0
-
-    def residuals(theta: np.ndarray) -> np.ndarray:
-        basis = _basis(record, columns, structure, steps, _lags(structure, theta), theta[-1])
-        return _projected(record.y, basis)[0] / scale
-
-    starts = _starts(structure, length, record.sampling)
-    costs = np.array([np.sum(residuals(theta) ** 2) for theta in starts])
-    lower = [np.log(record.sampling / 20), 1e-3][: structure.lags] + [0.0]
-    upper = [np.log(30 * length), 1.0][: structure.lags] + [0.9 * length]
-    found = [
-        least_squares(
-            residuals, np.clip(starts[i], np.array(lower) + 1e-9, np.array(upper) - 1e-9), bounds=(lower, upper)
-        )
-        for i in np.argsort(costs, kind="stable")[:4]
-    ]
-    best = min(found, key=lambda result: result.cost)
-    return _described(record, steps, structure, columns, _lags(structure, best.x), float(best.x[-1]))
+    nuisance = nuisance or ("drift" if drifts(record, steps) else "rest")
+    fixed = dict(fixed or {})
+    problem = Problem(record, structure, steps, nuisance, fixed)
+    lags, delay = problem.solve()
+    if 0 < delay < NO_DELAY * record.sampling and "L" not in fixed:
+        problem = Problem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
+        lags, delay = problem.solve()
+    return _described(problem, lags, delay, fixed)
 
 
-def _drifts(record: Record, steps: Steps) -> bool:
-    """Does the output drift before the first step, beyond three standard errors of the slope?"""
-    n = steps.before
+def drifts(record: Record, steps: Steps) -> bool:
+    """Does the output drift before the first step, beyond four standard errors of the slope?"""
+    used = record.used[: steps.before]
+    n = int(used.sum())
     if n < 10:
         return False
-    t, y = record.time[:n] - record.time[:n].mean(), record.y[:n]
+    t, y = record.time[: steps.before][used], record.y[: steps.before][used]
+    t = t - t.mean()
     slope = float(t @ (y - y.mean()) / (t @ t))
     sigma = max(float(np.std(y - y.mean() - slope * t)) * np.sqrt(n / (n - 2)), steps.noise)
-    return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * np.ptp(record.time) > 0.02 * np.ptp(record.y)
+    spans = np.ptp(record.time), np.ptp(record.y[record.used])
+    return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]
 
 
-def _described(record, steps, structure, columns, lags, delay) -> Fit:
+def _described(problem: Problem, lags, delay: float, fixed: Mapping[str, float]) -> Fit:
     """Everything that is said of a fit, from its optimum."""
     from scipy.special import stdtrit
 
-    basis = _basis(record, columns, structure, steps, lags, delay)
-    residuals, coefficients = _projected(record.y, basis)
+    record, structure, steps = problem.record, problem.structure, problem.steps
+    residuals, coefficients = problem.eliminated(lags, delay)
     gain = float(coefficients[-1])
     values = np.array([gain, *lags, delay])
+    names = ["Kv" if structure.integrating else "Kp", *(["T"] if len(lags) == 1 else ["T1", "T2"][: len(lags)]), "L"]
 
     def predicted(p: np.ndarray) -> np.ndarray:
-        return p[0] * structure.response(record.time, steps.list, tuple(p[1:-1]), p[-1])
+        return p[0] * structure.response(problem.time, steps.list, tuple(p[1:-1]), p[-1])
 
     moves = np.maximum(np.abs(values), [1e-12, *[record.sampling] * (len(values) - 1)]) * 1e-4
     moves[-1] = max(moves[-1], record.sampling)  # the response bends at the dead time: look across a whole sample
-    jacobian = [(predicted(values + e) - predicted(values - e)) / (2 * e.sum()) for e in np.diag(moves)]
-    jacobian = np.column_stack([*jacobian, columns])
-    covariance, freedom = intervals.covariance(jacobian, residuals, record.y)
-    spread = np.sqrt(np.maximum(np.diag(covariance)[: len(values)], 0))
+    jacobian = np.column_stack(
+        [(predicted(values + e) - predicted(values - e)) / (2 * e.sum()) for e in np.diag(moves)]
+    )
+    known = [i for i, name in enumerate(names) if {name, *_SAME.get(name, ())} & set(fixed)]
+    free = [i for i in range(len(values)) if i not in known]
+    found, freedom = intervals.covariance(
+        np.column_stack([jacobian[:, free], problem.columns(lags, delay)]), residuals, problem.y
+    )
+    covariance = np.zeros((len(values), len(values)))
+    covariance[np.ix_(free, free)] = found[: len(free), : len(free)]
+    spread = np.sqrt(np.maximum(np.diag(covariance), 0))
     quantile = float(stdtrit(freedom, 0.5 + CONFIDENCE / 2))  # of Student's distribution
-    names = ["Kv" if structure.integrating else "Kp", *(["T"] if len(lags) == 1 else ["T1", "T2"][: len(lags)]), "L"]
     parameters = tuple(
         Parameter(*row) for row in zip(names, values.tolist(), (quantile * spread).tolist(), strict=True)
     )
     after = record.time[-1] - steps.list[-1][0] - delay
+    whole = np.zeros(len(record.time))
+    whole[problem.used] = residuals
+    effects = dict(zip(problem.others, coefficients[-1 - len(problem.others) : -1].tolist(), strict=True))
     return Fit(
         structure,
         parameters,
         rest=float(coefficients[0]),
-        drift=float(coefficients[1]) if columns.shape[1] > 1 else 0.0,
-        residuals=residuals,
-        fit=100 * (1 - float(np.linalg.norm(residuals) / max(np.linalg.norm(record.y - record.y.mean()), 1e-300))),
+        drift=float(coefficients[1]) if problem.nuisance == "drift" else 0.0,
+        residuals=whole,
+        fit=100 * (1 - float(np.linalg.norm(residuals) / max(np.linalg.norm(problem.y - problem.y.mean()), 1e-300))),
         rmse=float(np.sqrt(np.mean(residuals**2))),
         correlation=intervals.correlation(residuals),
         settled=float("inf") if structure.integrating else float(after / sum(lags)),
-        covariance=covariance[: len(values), : len(values)],
+        covariance=covariance,
+        nuisance=problem.nuisance,
+        effects=effects,
+        answer=float(np.ptp(predicted(values))),
     )
 
 
-def fit_all(record: Record) -> tuple[Steps, dict[Structure, Fit]]:
-    """Every structure fitted to one record."""
-    steps = find_steps(record)
-    return steps, {structure: fit_structure(record, structure, steps) for structure in STRUCTURES}
+_SAME = {"Kp": ("K",), "Kv": ("K",), "T": ("T1",), "T1": ("T",)}
+
+
+def fit_all(
+    record: Record, steps: Steps | None = None, nuisance: str | None = None, fixed: Mapping[str, float] | None = None
+) -> tuple[Steps, dict[Structure, Fit]]:
+    """Every structure fitted to one record; with parameters fixed, those that have them."""
+    steps = steps or find_steps(record)
+    chosen = [s for s in STRUCTURES if _has(s, fixed or {})]
+    return steps, {structure: fit_structure(record, structure, steps, nuisance, fixed) for structure in chosen}
+
+
+def _has(structure: Structure, fixed: Mapping[str, float]) -> bool:
+    """Has the structure the parameters that are fixed?"""
+    lags = {0: set(), 1: {"T"}, 2: {"T1", "T2"}}[structure.lags] | ({"T1"} if structure.integrating else set())
+    wanted = {name for name in fixed if name.startswith("T")}
+    gain = {"K", "Kv"} if structure.integrating else {"K", "Kp"}
+    return wanted <= lags and {name for name in fixed if name.startswith("K")} <= gain

@@ -8,16 +8,16 @@ import numpy as np
 
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
+from loopbook.loop.step_info import step_info
 from loopbook.loop.transfer import LoopError
 from loopbook.plots.curves import curves
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation
-from loopbook.response.step_info import step_info
 
 LOOP = ("Ms", "phase margin [°]", "gain margin", "IAE, load", "overshoot [%]", "settling [s]", "peak |u|")
-RUN = ("overshoot [%]", "IAE", "largest u", "smallest u", "limited [%]")
+RUN = ("overshoot [%]", "IAE", "largest u", "smallest u", "variation of u")
 UNSTABLE = ("unstable", *("",) * (len(LOOP) - 1))
 
 
@@ -60,7 +60,7 @@ def compare(first: Any, regulators: Mapping[str, Any] | None = None) -> SideBySi
     first: a `Process`, with the regulators by name (PID forms, what `tune` gives, `Tunings`); or a mapping of names to
     `Loop`, `SampledLoop`, or `Simulation`.
     Of loops: Ms, phase and gain margin, IAE of a load step, overshoot, settling time and largest |u| of a set-point
-    step. Of runs: overshoot over the last reference, IAE, range of u, the share of samples at a limit.
+    step. Of runs: overshoot over the last reference, IAE, range and total variation of u.
 
     >>> from loopbook.tuning import tune
     >>> process = Process([2], [40, 14, 1], delay=3)
@@ -111,8 +111,8 @@ def _of_run(run: Simulation) -> tuple[Any, ...]:
         if last != start
         else 0.0
     )
-    limited = 100 * float(np.mean(run.u != run.demanded))
-    return over, float(h * np.sum(np.abs(run.reference - run.y))), float(run.u.max()), float(run.u.min()), limited
+    varied = abs(run.u[0]) + float(np.abs(np.diff(run.u)).sum())
+    return over, float(h * np.sum(np.abs(run.reference - run.y))), float(run.u.max()), float(run.u.min()), varied
 
 
 def _drawn(loop: Loop | SampledLoop, horizon: float) -> tuple[tuple[Any, Any], tuple[Any, Any]]:

@@ -10,13 +10,14 @@ from functools import cached_property
 import numpy as np
 
 from loopbook.loop.continuous import Loop
-from loopbook.loop.sampled import SampledLoop
+from loopbook.loop.margins import Margins
+from loopbook.loop.sampled import SampledLoop, SampledMargins
 from loopbook.numerics.signals import Signal
 from loopbook.response.step_metrics import StepMetrics, exact
 
 
 @dataclass(frozen=True)
-class Candidate:
+class ComparedLoop:
     """A regulator on its process, under a name. loop: `Loop` or `SampledLoop`, stable. horizon [s]: long enough to
     settle; load: the size of the load step [u] whose response is measured.
     """
@@ -31,7 +32,7 @@ class Candidate:
         return isinstance(self.loop, SampledLoop)
 
     def _run(self, source: str) -> tuple[Signal, Signal]:
-        if not self.sampled:
+        if isinstance(self.loop, Loop):
             response = self.loop.step(source, self.horizon)
             return response.y.until(self.horizon), response.u.until(self.horizon)
         run = self.loop.step(source, int(np.ceil(self.horizon / self.loop.regulator.h)))
@@ -82,14 +83,14 @@ class Candidate:
         return float(leaves.max(initial=0.0))
 
     @cached_property
-    def margins(self):
+    def margins(self) -> Margins | SampledMargins:
         """`Margins` or `SampledMargins`."""
         return self.loop.margins()
 
     @property
     def regulator_is_stable(self) -> bool:
         """Is the regulator stable by itself (an integrator allowed)?"""
-        if self.sampled:
+        if isinstance(self.loop, SampledLoop):
             return self.loop.regulator.is_stable
         return not self.loop.polynomials.unstable_poles.size
 

@@ -11,6 +11,7 @@ reaches the output through W (which may have dead times of its own).
     loop.step("reference").metrics().rise  # s, from the continuous response, accurate to rounding
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -23,8 +24,11 @@ from loopbook.loop.stability import BorderError, decay_rate, is_stable, unstable
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.numerics.real_numbers import plain, real
 from loopbook.numerics.signals import HorizonError, Signal
+from loopbook.plots.curves import curves
+from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import DelayedSum, Process
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
+from loopbook.response.step_metrics import exact
 
 SETTLED = 1e-9
 AT_REST = 1e-10
@@ -36,7 +40,12 @@ PATIENCE = np.log(1e11)
 class Loop:
     """process with regulator in negative feedback; path: W(s) of the disturbance w, if there is one.
 
-    regulator: a `Regulator`, a PID form of `loopbook.controllers.pid_forms`, a rational `Process` or a number.
+    regulator: a `Regulator`, a PID form of `loopbook.controllers.pid_forms`, what `loopbook.tuning` gives, a rational
+    `Process` or a number.
+
+    >>> loop = Loop(Process.fopdt(2, 10, 3), 1.0)
+    >>> loop.is_stable, round(loop.margins().gain, 3)
+    (True, 2.945)
     """
 
     process: Process
@@ -44,7 +53,7 @@ class Loop:
     path: Process | DelayedSum | None = None
     polynomials: Regulator = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "polynomials", Regulator.of(self.regulator))
 
     @cached_property
@@ -135,9 +144,6 @@ class Loop:
 
     def plot(self, horizon: float | None = None) -> Any:
         """y and u after a unit step of the reference, and of the load at half the horizon [s]: a matplotlib figure."""
-        from loopbook.plots.curves import curves
-        from loopbook.plots.shown import shown_once
-
         y, u = self.reference_and_load(horizon or 3 * self.step("reference").metrics().settling)
         title = "Unit steps of the reference (at once) and of the load (half-way)"
         return shown_once(curves({"output $y$": {"y": y}, "input $u$": {"u": u}}, title))
@@ -181,11 +187,11 @@ def _at_rest(signal: Signal, final: float) -> bool:
     return left <= AT_REST * max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
 
 
-def _without_common_integrators(*rows: tuple[float, ...]) -> list[tuple[float, ...]]:
+def _without_common_integrators(*rows: Sequence[float]) -> list[tuple[float, ...]]:
     """Polynomials of one transfer function divided by the factors s that all of them share."""
     while all(len(row) > 1 and row[-1] == 0 for row in rows if row != (0.0,)) and rows[-1] != (0.0,):
         rows = tuple(row[:-1] if row != (0.0,) else row for row in rows)
-    return list(rows)
+    return [tuple(row) for row in rows]
 
 
 @dataclass(frozen=True)
@@ -211,8 +217,6 @@ class StepResponse:
 
         Raises LoopError for an unstable loop, NotSettled for a horizon that is too short.
         """
-        from loopbook.response.step_metrics import exact
-
         return exact(self.y, self.final[0], min(self.horizon, self.y.end))
 
     @cached_property
@@ -251,9 +255,6 @@ class StepResponse:
 
     def plot(self) -> Any:
         """y and u as a matplotlib figure."""
-        from loopbook.plots.curves import curves
-        from loopbook.plots.shown import shown_once
-
         t = np.linspace(0.0, min(self.horizon, self.y.end, self.u.end), 1000)
         panels = {"output $y$": {"y": (t, self.y(t))}, "input $u$": {"u": (t, self.u(t))}}
         return shown_once(curves(panels, f"Unit step of the {self.source}"))

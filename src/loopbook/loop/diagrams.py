@@ -95,7 +95,7 @@ def _frequencies(transfer: LoopTransfer) -> np.ndarray:
     corners += [1 / transfer.delay] if transfer.delay else []
     low, high = min(corners, default=1.0) / 10**DECADES, max(corners, default=1.0) * 10**DECADES
     if transfer.delay:
-        high = min(high, max(30 / transfer.delay, 3 * max(transfer.gain_crossovers, default=0.0)))
+        high = min(high, max(8 / transfer.delay, 3 * max(transfer.gain_crossovers, default=0.0)))
     w = np.geomspace(low, high, 600)
     if transfer.delay:
         w = np.union1d(w, np.arange(TURN, high * transfer.delay, TURN) / transfer.delay)

@@ -7,11 +7,13 @@ The joint circle of that M (`derivations.loop.robustness.joint_circle`) is the l
 """
 
 import math
+from collections.abc import Callable
 from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 
+from derivations.loop import robustness as d
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopTransfer
 from loopbook.numerics import horner
@@ -20,10 +22,8 @@ from loopbook.process.transfer_function import Process
 
 
 @cache
-def _at_point():
+def _at_point() -> Callable[..., Any]:
     import sympy
-
-    from derivations.loop import robustness as d
 
     return sympy.lambdify((d.a, d.b), d.joint_M(), "numpy")
 

@@ -8,6 +8,7 @@ frequency.
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -52,7 +53,12 @@ class SampledMargins(ShownAsTable):
 
 @dataclass(frozen=True)
 class SampledLoop:
-    """process: continuous, with dead time. regulator: an `Rst`; its h is the sampling interval."""
+    """process: continuous, with dead time. regulator: an `Rst`; its h is the sampling interval.
+
+    >>> loop = SampledLoop(Process([0.5], [1, 0], 0.4), Rst(R=(1.0,), S=(0.5,), T=(0.5,), h=1.0))
+    >>> loop.is_stable, round(loop.margins().gain, 3)
+    (True, 10.0)
+    """
 
     process: Process
     regulator: Rst
@@ -151,4 +157,5 @@ class SampledLoop:
         """
         if source not in ("reference", "load", "noise", "output"):
             raise LoopError(f"source = {source!r}; one of reference, load, noise, output")
-        return simulate(self.process, self.regulator.controller(low, high), self.regulator.h, steps, **{source: 1.0})
+        unit: dict[str, Any] = {source: 1.0}
+        return simulate(self.process, self.regulator.controller(low, high), self.regulator.h, steps, **unit)

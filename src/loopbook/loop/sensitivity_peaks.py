@@ -9,6 +9,7 @@ from below; an interval is dropped only when that bound shows that nothing small
 
 import cmath
 import math
+from abc import ABC, abstractmethod
 from typing import NamedTuple
 
 import numpy as np
@@ -28,8 +29,17 @@ class Peak(NamedTuple):
     w: float
 
 
-class _Curve:
+class _Curve(ABC):
     """W over w. A subclass tells W, d log W/dw, and what bounds them on intervals."""
+
+    @abstractmethod
+    def __call__(self, w: np.ndarray) -> np.ndarray: ...
+    @abstractmethod
+    def log_slope(self, w: np.ndarray) -> np.ndarray: ...
+    @abstractmethod
+    def extent(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]: ...
+    @abstractmethod
+    def grid(self) -> tuple[np.ndarray, float, float]: ...
 
     def distance(self, w: np.ndarray) -> np.ndarray:
         """|1 + W|, infinite at a pole."""
@@ -137,11 +147,11 @@ class Circle(_Curve):
     def __init__(self, transfer: CircleTransfer):
         self.transfer = transfer
 
-    def __call__(self, a: np.ndarray) -> np.ndarray:
-        return self.transfer(a)
+    def __call__(self, w: np.ndarray) -> np.ndarray:
+        return self.transfer(w)
 
-    def log_slope(self, a: np.ndarray) -> np.ndarray:
-        return self.transfer.log_slope(a)
+    def log_slope(self, w: np.ndarray) -> np.ndarray:
+        return self.transfer.log_slope(w)
 
     def grid(self) -> tuple[np.ndarray, float, float]:
         t = self.transfer

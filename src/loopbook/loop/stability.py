@@ -15,7 +15,7 @@ w L: Z is a sum of whole numbers, and no grid of frequencies enters.
 
 import cmath
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -121,7 +121,7 @@ def _rational(loop: LoopTransfer) -> int:
     if w is not None:
         hidden = _common_on_axis(loop)
         raise BorderError(w if hidden is None else hidden, hidden is not None)
-    return int((roots.real > 0).sum()) if certain else count_right(total)
+    return int((roots.real > 0).sum()) if certain else count_right(total.tolist())
 
 
 def _common_on_axis(loop: LoopTransfer) -> float | None:
@@ -144,7 +144,7 @@ def is_stable(loop: LoopTransfer) -> bool:
 def shifted(loop: LoopTransfer, sigma: float) -> LoopTransfer:
     """The loop with s replaced by s - sigma: its roots lie sigma [1/s] further to the right."""
 
-    def moved(p: tuple[float, ...]) -> tuple[float, ...]:
+    def moved(p: Sequence[float]) -> tuple[float, ...]:
         c = list(p)
         for last in range(len(c), 1, -1):
             for i in range(1, last):

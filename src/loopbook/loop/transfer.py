@@ -9,6 +9,7 @@ Frequencies are searched for in the loop's own unit of time (`LoopTransfer.own_u
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -16,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.numerics import horner, units
 from loopbook.numerics.imaginary_axis import (
     magnitude_squared,
@@ -32,7 +34,7 @@ BESIDE = 1e-13
 SAME = 1e-9
 
 
-class LoopError(ValueError):
+class LoopError(LoopbookError):
     """A question that the loop cannot answer: the message says why."""
 
 
@@ -44,12 +46,12 @@ class LoopTransfer:
     den were divided out: modes at s = 0 that the transfer function does not show and the loop cannot move.
     """
 
-    num: tuple[float, ...]
-    den: tuple[float, ...]
+    num: Sequence[float]
+    den: Sequence[float]
     delay: float = 0.0
     hidden: int = field(init=False, default=0, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         num, den = coefficients(self.num, "num"), coefficients(self.den, "den")
         if den == (0.0,):
             raise ProcessError("den is zero: a transfer function needs a denominator")
@@ -71,7 +73,8 @@ class LoopTransfer:
         if time == 1 and scale == 1:
             return self, 1.0
         inside = object.__new__(LoopTransfer)
-        inside._set(*(units.in_units(p, 1.0, scale) for p in (num, den)), self.delay / time, self.hidden)
+        num, den = units.in_units(num, 1.0, scale), units.in_units(den, 1.0, scale)
+        inside._set(num, den, self.delay / time, self.hidden)
         inside.__dict__["own_units"] = (inside, 1.0)
         return inside, time
 
@@ -173,7 +176,7 @@ class LoopTransfer:
         inside, time = self.own_units
         n, d = np.array(inside.num), np.array(inside.den)
         n2, d2 = magnitude_squared(n), magnitude_squared(d)
-        slope = np.polysub(np.polymul(slope_of_phase(n), d2), np.polymul(slope_of_phase(d), n2))
+        slope: np.ndarray = np.polysub(np.polymul(slope_of_phase(n), d2), np.polymul(slope_of_phase(d), n2))
         slope = np.polysub(slope, inside.delay * np.polymul(n2, d2))
         axis = [abs(r.imag) for r in (*inside.zeros, *inside.poles) if r.real == 0 and r.imag > 0]
         return np.unique(np.concatenate([positive_roots(slope), axis])) / time
@@ -191,8 +194,8 @@ class LoopTransfer:
             )
         inside, time = self.own_units
         last = inside._last_frequency(floor)
-        cuts = inside.monotone_phase
-        cuts = [0.0, *cuts[cuts < last].tolist(), last]
+        turns = inside.monotone_phase
+        cuts = [0.0, *turns[turns < last].tolist(), last]
         found: list[float] = []
         for a, b in pairwise(cuts):
             found.extend(inside._levels(a, b))
@@ -258,7 +261,7 @@ class LoopTransfer:
         return w - change if abs(change) < 1e-6 * w else w
 
 
-def _last_nonzero(p: tuple[float, ...]) -> float:
+def _last_nonzero(p: Sequence[float]) -> float:
     return [c for c in p if c][-1] if any(p) else 1.0
 
 

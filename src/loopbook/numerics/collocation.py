@@ -13,6 +13,7 @@ from functools import cache
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.numerics.state_space import balancing
 
 DEGREE = 24
@@ -20,7 +21,7 @@ REACH = 8.0
 MOST_CELLS = 200_000
 
 
-class ResponseError(ValueError):
+class ResponseError(LoopbookError):
     """A response that cannot be computed as asked: the message says why and what can be asked instead."""
 
 

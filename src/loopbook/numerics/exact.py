@@ -34,7 +34,7 @@ def rational(expression: Any, digits: int = 40) -> Fraction:
     """
     import sympy
 
-    expression = sympy.sympify(expression)
+    expression = sympy.sympify(expression, strict=True)
     if expression.free_symbols:
         raise ValueError(f"{expression} has no value before {sorted(map(str, expression.free_symbols))} have one")
     if not expression.is_Rational:
@@ -58,13 +58,13 @@ def function(symbols: Sequence[Any], expressions: Any) -> Callable:
     from sympy.printing.lambdarepr import LambdaPrinter
 
     class Printer(LambdaPrinter):
-        def _print_Rational(self, number):
+        def _print_Rational(self, number: Any) -> str:
             return f"Fraction({number.p}, {number.q})"
 
-        def _print_Integer(self, number):
+        def _print_Integer(self, number: Any) -> str:
             return f"Fraction({int(number)})"
 
-        def _print_Pow(self, power, **_):
+        def _print_Pow(self, power: Any, **_: Any) -> str:
             base, exponent = power.args
             if exponent.is_Integer:  # a Fraction as an exponent would turn the result into a float
                 return f"({self._print(base)})**({int(exponent)})"

@@ -53,9 +53,9 @@ def lags(row: Sequence[float]) -> str:
     >>> lags([40, 14, 1, 0])
     's (10 s + 1) (4 s + 1)'
     """
-    row = np.asarray(row, dtype=float)
-    integrators = len(row) - len(np.trim_zeros(row, "b"))
-    rest = row[: len(row) - integrators]
+    values = np.asarray(row, dtype=float)
+    rest = np.trim_zeros(values, "b")
+    integrators = len(values) - len(rest)
     times = [float(f"{t:.4g}") for t in sorted(-1 / np.roots(rest).real, reverse=True)]
     product = np.array([1.0])
     for t in times:

@@ -37,7 +37,7 @@ def plain(value: Any) -> int | float | Fraction:
     if getattr(value, "is_Rational", False):
         return Fraction(int(value.p), int(value.q))
     if isinstance(value, numbers.Rational):
-        return Fraction(value.numerator, value.denominator)
+        return Fraction(int(value.numerator), int(value.denominator))
     if isinstance(value, numbers.Real) or (getattr(value, "is_real", False) and getattr(value, "is_number", False)):
         return float(value)
     raise TypeError(f"{value!r} is a {kind.__name__}: {EXPECTED}")

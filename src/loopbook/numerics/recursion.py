@@ -10,10 +10,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from derivations.errors import LoopbookError
 from loopbook.numerics.exact import function
 
 
-class DifferenceEquationError(ValueError):
+class DifferenceEquationError(LoopbookError):
     """A difference equation cannot be run; the message names the signal or the symbol."""
 
 

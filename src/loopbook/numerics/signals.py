@@ -15,13 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import legendre
 
+from derivations.errors import LoopbookError
 from loopbook.numerics.legendre_series import keeps_sign, nodes_of, sampling, series
 
 QUIET, STILL, ROUNDING = 1e-13, 1e-11, 2e-15  # parts of a signal's largest value
 DENSITIES = (2, 16, 128)  # nodes per coefficient of a cell
 
 
-class HorizonError(ValueError):
+class HorizonError(LoopbookError):
     """A signal was asked beyond the time it is known for."""
 
 
@@ -40,7 +41,7 @@ class Signal:
     edges: np.ndarray
     coefficients: np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.edges.shape != (len(self.coefficients) + 1,):
             raise ValueError(f"{len(self.coefficients)} cells need {len(self.coefficients) + 1} edges")
 
@@ -208,9 +209,8 @@ class Signal:
         left, right = shifted._sides
         before = np.concatenate([[0.0 - level], right[:-1]])
         found.extend(self.edges[:-1][before * left < 0])
-        found = np.sort(found)
-        distinct = np.append(True, np.diff(found) > 1e-12 * self.end) if found.size else slice(None)
-        return found[distinct]
+        roots = np.sort(np.array(found, dtype=float))
+        return roots[np.append(True, np.diff(roots) > 1e-12 * self.end)] if roots.size else roots
 
     def extremes(self) -> tuple[np.ndarray, np.ndarray]:
         """Times and values of all candidates for a maximum or minimum: turning points and both sides of every edge.

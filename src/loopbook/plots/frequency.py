@@ -33,7 +33,7 @@ def bode_figure(curves: Mapping[str, Curve], title: str) -> Any:
 
     fig, axes = plt.subplots(2, 1, figsize=(6.3, 4.8), sharex=True, layout="constrained")
     for i, (name, curve) in enumerate(curves.items()):
-        how = {"color": COLOURS[i % len(COLOURS)], "linestyle": STYLES[i % len(STYLES)], "linewidth": 1.4}
+        how = _line(i)
         axes[0].loglog(curve.w, curve.gain, label=name, **how)
         axes[1].semilogx(curve.w, curve.phase, **how)
     if len(curves) == 1:
@@ -49,6 +49,10 @@ def bode_figure(curves: Mapping[str, Curve], title: str) -> Any:
     for axis in axes:
         axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
     return fig
+
+
+def _line(i: int) -> dict[str, Any]:
+    return {"color": COLOURS[i % len(COLOURS)], "linestyle": STYLES[i % len(STYLES)], "linewidth": 1.4}
 
 
 def _draw_margins(axes: Any, curve: Curve) -> None:
@@ -81,8 +85,7 @@ def nyquist_curves(curves: Mapping[str, Curve], title: str) -> Any:
     axis.plot(np.cos(angle), np.sin(angle), color="0.7", linewidth=0.8)
     for i, (name, curve) in enumerate(curves.items()):
         value = curve.gain * np.exp(1j * np.radians(curve.phase))
-        how = {"color": COLOURS[i % len(COLOURS)], "linestyle": STYLES[i % len(STYLES)], "linewidth": 1.4}
-        axis.plot(value.real, value.imag, label=name, **how)
+        axis.plot(value.real, value.imag, label=name, **_line(i))
     axis.plot(-1, 0, "+", color="black", markersize=9)
     if len(curves) == 1:
         (curve,) = curves.values()

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 
-def stairs(t: Sequence[float], values: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+def stairs(t: Sequence[float] | np.ndarray, values: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Corner points of a zero-order hold: value k holds from t[k] until t[k+1]; the last one is a point.
 
     >>> [row.tolist() for row in stairs([0, 1, 2], [5, 7, 6])]

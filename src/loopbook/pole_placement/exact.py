@@ -10,7 +10,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from derivations.algebra.delay_polynomials import Z, coefficients, difference_equation
+from derivations.pole_placement.diophantine import integrators as fixed
+from derivations.pole_placement.diophantine import place
+from loopbook.controllers.rst import Rst, zeros_of
 from loopbook.numerics.exact import decimal, function
+from loopbook.numerics.recursion import recursion, simulate
 from loopbook.pole_placement.sampled_plant import SampledPlant
 
 
@@ -29,18 +34,12 @@ class PlacedLoop:
     @cached_property
     def rst(self) -> Any:
         """The regulator as a `loopbook.controllers.rst.Rst`: R = C, S = D, T = K_r."""
-        from derivations.algebra.delay_polynomials import coefficients
-        from loopbook.controllers.rst import Rst
-
-        rows = [[float(c) for c in coefficients(p)] or [0.0] for p in (self.design.C, self.design.D)]
-        return Rst(*map(tuple, rows), (float(self.parameters["K_r"]),), float(self.plant.h))
+        R, S = (tuple(map(float, coefficients(p))) or (0.0,) for p in (self.design.C, self.design.D))
+        return Rst(R, S, (float(self.parameters["K_r"]),), float(self.plant.h))
 
     @cached_property
     def regulator_radius(self) -> float:
         """The largest |z| of the regulator's own poles without its integrators; above 1 it is unstable by itself."""
-        from derivations.algebra.delay_polynomials import coefficients
-        from loopbook.controllers.rst import zeros_of
-
         poles = zeros_of([float(c) for c in coefficients(self.design.C_prime)])
         return float(abs(poles).max(initial=0.0))
 
@@ -49,9 +48,6 @@ class PlacedLoop:
 
         plant: the one that answers; default the one designed for. exact: fractions instead of floats.
         """
-        from derivations.algebra.delay_polynomials import difference_equation
-        from loopbook.numerics.recursion import recursion, simulate
-
         answers = plant or self.plant
         number = Fraction if exact else float
         process = recursion(difference_equation(("y", answers.A), {"u": answers.B}), {}, number)
@@ -71,10 +67,6 @@ def place_poles(plant: SampledPlant, q: Any, poles: int | None = None, integrato
     ['43298', '1.186', '1.5399', '0.80337', '7.0523e+05', '-1.0809e+06', '4.1892e+05']
     """
     from sympy import Rational
-
-    from derivations.algebra.delay_polynomials import Z
-    from derivations.pole_placement.diophantine import integrators as fixed
-    from derivations.pole_placement.diophantine import place
 
     exact = decimal(q)
     if not 0 <= exact < 1:

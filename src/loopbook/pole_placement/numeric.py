@@ -68,12 +68,12 @@ def place(
     for name, p in (("P", P), ("observer", observer)):
         if p[0] != 1:
             raise PlacementError(f"{name} = {p.tolist()} must start with 1")
-    fixed = with_zeros(np.ones(integrators)) if integrators else np.ones(1)
+    fixed = with_zeros([1.0] * integrators) if integrators else np.ones(1)
     A_fixed = np.convolve(A, fixed)
     _refuse_common_factor(A, fixed, B)
     chosen = zeros_of(B)
     cancelled = chosen[well_damped(chosen, cancel_damping)] if cancel_damping is not None else chosen[:0]
-    B_plus = with_zeros(cancelled)
+    B_plus = with_zeros(cancelled.tolist())
     B_rest = _row(_quotient(B, B_plus), "B")
     wanted = np.convolve(P, observer)
     R_short, S, condition = _sylvester(A_fixed, B_rest, wanted)
@@ -103,7 +103,7 @@ def _quotient(p: np.ndarray, factor: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros(delays), np.atleast_1d(quotient)])
 
 
-def _refuse_common_factor(A: np.ndarray, fixed: np.ndarray, B: np.ndarray) -> None:
+def _refuse_common_factor(A: Polynomial, fixed: Polynomial, B: Polynomial) -> None:
     zeros = zeros_of(B)
     for name, p in (("the integrator", fixed), ("A", A)):
         for pole in zeros_of(p):

@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from derivations.algebra.delay_polynomials import Z, polynomial
+from derivations.pole_placement import diophantine
 from loopbook.controllers.rst import PlacementError, with_zeros
 from loopbook.pole_placement.numeric import Placement
 from loopbook.pole_placement.numeric import place as place_in_numbers
@@ -45,9 +47,6 @@ def place(
 
 def _in_letters(process: SampledProcess, poles: list[Any], integrators: int) -> Any:
     import sympy
-
-    from derivations.algebra.delay_polynomials import Z, polynomial
-    from derivations.pole_placement import diophantine
 
     B, A = process.polynomials
     a = [sympy.Symbol(f"a_{i}") if value else 0 for i, value in enumerate(A)][1:]

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from derivations.algebra.delay_polynomials import coefficients, polynomial
+from derivations.sampling.zero_order_hold import dead_time_in_samples, two_lags, zero_order_hold
 from loopbook.numerics.exact import decimal, rational
 
 
@@ -38,7 +40,7 @@ class SampledPlant:
     @property
     def static_gain(self) -> Fraction:
         """B(1)/A(1), output per input. Raises ZeroDivisionError for an integrating plant."""
-        return sum(self.b) / (1 + sum(self.a))
+        return sum(self.b, Fraction()) / (1 + sum(self.a))
 
     def rounded(self, digits: int = 4) -> "SampledPlant":
         """The same plant with every coefficient rounded to significant digits, as MATLAB displays it.
@@ -46,14 +48,12 @@ class SampledPlant:
         >>> SampledPlant((Fraction(-2, 3),), (Fraction(1, 3),), Fraction(1)).rounded().values
         {'a_1': Fraction(-6667, 10000), 'b_1': Fraction(3333, 10000)}
         """
-        short = [[Fraction(f"{float(c):.{digits}g}") for c in values] for values in (self.a, self.b)]
-        return SampledPlant(*map(tuple, short), self.h)
+        a, b = (tuple(Fraction(f"{float(c):.{digits}g}") for c in values) for values in (self.a, self.b))
+        return SampledPlant(a, b, self.h)
 
 
 def _polynomial(values: Sequence[Fraction | int]) -> Any:
     from sympy import Rational
-
-    from derivations.algebra.delay_polynomials import polynomial
 
     return polynomial([Rational(c.numerator, c.denominator) for c in map(Fraction, values)])
 
@@ -70,9 +70,6 @@ def sample_two_lags(T1: Any, T2: Any, gain: Any, dead_time: Any, h: Any, digits:
     ['-1.686', '0.7097', '1.526e-06', '1.361e-06']
     """
     from sympy import Rational
-
-    from derivations.algebra.delay_polynomials import coefficients
-    from derivations.sampling.zero_order_hold import dead_time_in_samples, two_lags, zero_order_hold
 
     given = {"T1": T1, "T2": T2, "gain": gain, "dead_time": dead_time, "h": h}
     exact = {name: decimal(value) for name, value in given.items()}

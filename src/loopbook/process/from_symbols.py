@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from loopbook.numerics.exact import decimal
 from loopbook.process.transfer_function import Process, ProcessError
 
 
@@ -22,7 +23,9 @@ def process_of(expression: Any, values: Mapping[Any, Any], s: Any = None) -> Pro
 
     s = sympy.Symbol("s") if s is None else s
     named = {str(name): _number(value) for name, value in values.items()}
-    expression = sympy.sympify(expression).subs({x: named[x.name] for x in expression.free_symbols if x.name in named})
+    expression = sympy.sympify(expression, strict=True).subs(
+        {x: named[x.name] for x in expression.free_symbols if x.name in named}
+    )
     left = expression.free_symbols - {s}
     if left:
         raise ProcessError(f"no value for {', '.join(sorted(map(str, left)))}; given: {', '.join(named) or 'none'}")
@@ -39,8 +42,6 @@ def process_of(expression: Any, values: Mapping[Any, Any], s: Any = None) -> Pro
 
 def _number(value: Any) -> Any:
     import sympy
-
-    from loopbook.numerics.exact import decimal
 
     if isinstance(value, sympy.Basic):
         return value

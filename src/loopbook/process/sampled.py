@@ -18,6 +18,8 @@ import numpy as np
 
 from loopbook.numerics import polynomial_text
 from loopbook.numerics.state_space import StateSpace, observer_form
+from loopbook.plots.curves import curves
+from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import Process, ProcessError
 
 
@@ -37,6 +39,10 @@ class SampledProcess:
     """A process seen at the sampling instants kh. Make it with `sample`.
 
     plant: state space of the rational part. whole, tau: dead time = whole h + tau, 0 <= tau < h. h: interval [s].
+
+    >>> sampled = sample(Process([1], [1, 0], delay=1.5), 1.0)
+    >>> sampled.whole, sampled.tau, sampled.num
+    (1, 0.5, array([0. , 0. , 0.5, 0.5]))
     """
 
     process: Process
@@ -95,16 +101,13 @@ class SampledProcess:
 
     def latex(self) -> str:
         """B/A in LaTeX, in powers of z^-1."""
-        return rf"\frac{{{polynomial_text.in_delays(self.num)}}}{{{polynomial_text.in_delays(self.den)}}}"
+        return rf"\frac{{{polynomial_text.in_delays(list(self.num))}}}{{{polynomial_text.in_delays(list(self.den))}}}"
 
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"
 
     def plot(self, steps: int | None = None) -> Any:
         """The unit step response at the sampling instants as a matplotlib figure."""
-        from loopbook.plots.curves import curves
-        from loopbook.plots.shown import shown_once
-
         slow = float(sum(1 / abs(p.real) for p in self.process.poles if p.real))
         steps = steps or int((self.process.delay * 2 + 7 * slow) / self.h) or 40
         t = self.h * np.arange(steps + 1)

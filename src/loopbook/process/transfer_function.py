@@ -14,11 +14,16 @@ from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
+from loopbook.extras import needed
 from loopbook.numerics import horner, polynomial_text
 from loopbook.numerics.real_numbers import plain, positive, real
+from loopbook.numerics.step_response import open_loop_step
+from loopbook.plots.curves import curves
+from loopbook.plots.shown import shown_once
 
 
-class ProcessError(ValueError):
+class ProcessError(LoopbookError):
     """A transfer function that cannot be a process; the message says which number and why."""
 
 
@@ -65,11 +70,11 @@ class Process:
     0.732743
     """
 
-    num: tuple[float, ...]
-    den: tuple[float, ...]
+    num: Sequence[float]
+    den: Sequence[float]
     delay: float = 0.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "num", coefficients(self.num, "num"))
         object.__setattr__(self, "den", coefficients(self.den, "den"))
         if self.den == (0.0,):
@@ -115,8 +120,7 @@ class Process:
         pade: order of the Padé approximation of the dead time. Without it a process with dead time is refused, as
         python-control has no form for it.
         """
-        import control
-
+        control = needed("control", "control")
         rational = control.tf(list(self.num), list(self.den))
         if not self.delay:
             return rational
@@ -146,9 +150,6 @@ class Process:
 
     def plot(self, horizon: float | None = None) -> Any:
         """The unit step response as a matplotlib figure, up to the horizon [s]."""
-        from loopbook.plots.curves import curves
-        from loopbook.plots.shown import shown_once
-
         if horizon is None:
             horizon = self.delay * 2 + 7 * float(sum(1 / abs(p.real) for p in self.poles if p.real)) or 10.0
         t = np.linspace(0.0, horizon, 600)
@@ -214,8 +215,6 @@ class Process:
         >>> Process.fopdt(2, 3, 1).step([0.5, 4.0])
         array([0.        , 1.26424112])
         """
-        from loopbook.numerics.step_response import open_loop_step
-
         times = np.asarray(times, dtype=float)
         horizon = max(float(times.max(initial=0.0)) - self.delay, 0.0)
         return amplitude * open_loop_step(self.rational, horizon).delayed(self.delay)(times)

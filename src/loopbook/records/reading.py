@@ -3,156 +3,179 @@
 Everything that had to be assumed is said in the record's ``assumptions``, so that a report can show it.
 """
 
-import re
 from pathlib import Path
 
 import numpy as np
 
-from loopbook.records.cells import cells_of, name_and_unit, text_of
-from loopbook.records.record import FEWEST_SAMPLES, Record, RecordError
+from loopbook.records import clock
+from loopbook.records.cells import Cells, cells_of, text_of
+from loopbook.records.columns import choose, find_time
+from loopbook.records.faults import find_faults
+from loopbook.records.names import Name, Role, read_name
+from loopbook.records.record import FEWEST_SAMPLES, Other, Record, RecordError
+from loopbook.records.sheets import is_sheet, sheet_cells
+from loopbook.records.units import TIME_UNITS
 
-TIME_NAMES = r"t|time|tid|czas|zeit|temps|timestamp|datetime|date|elapsed|seconds?|sec|minutes?"
-INPUT_NAMES = (
-    r"u\d*|input|in|mv|op|co|q\d*|heater\d*|power|valve|pump|pwm|duty|control|styrsignal|sterowanie|drive|voltage"
-)
-OUTPUT_NAMES = (
-    r"y\d*|output|out|pv|measured?|measurement|temp\w*|t\d+|level|speed|pressure|flow|position|ph"
-    r"|ärvärde|wyjscie|wyjście"
-)
-TIME_UNITS = {
-    "s": 1.0,
-    "sec": 1.0,
-    "second": 1.0,
-    "seconds": 1.0,
-    "ms": 1e-3,
-    "us": 1e-6,
-    "µs": 1e-6,
-    "min": 60.0,
-    "minute": 60.0,
-    "minutes": 60.0,
-    "h": 3600.0,
-    "hour": 3600.0,
-    "hours": 3600.0,
-}
 SINCE_1970 = ((1e17, 1e-9, "nanoseconds"), (1e14, 1e-6, "microseconds"), (1e11, 1e-3, "milliseconds"))
+LONGEST_SECOND = 3600.0  # s between samples of a time without a unit: longer ones are hardly seconds
 
 
-def _seconds(texts: list[str]) -> np.ndarray | None:
-    """Dates with a time of day as seconds from the first, or None where the texts are none.
+def read_record(
+    path: str | Path,
+    time: str | None = None,
+    input: str | None = None,
+    output: str | None = None,
+    interval: float = 0.0,
+) -> Record:
+    """Read one experiment from a logger's file: CSV, .xlsx or Parquet.
 
-    Of 01/02/2026 as a day in January or in February the one is taken that makes the record shorter.
-    """
-    import pandas as pd
+    path: one sample per line; in a text file comma, semicolon, tab or blanks between the columns, decimal point or
+    comma. Units in the head as ``[s]`` or ``(°C)``, in the name (``time_ms``) or in a line below it, row counters,
+    dates as time stamps in one column or two, times of day past midnight, words such as on and off, repeated and
+    missing samples are understood. time, input, output: column names, where they should not be found by themselves.
+    interval [s]: between the samples of a record without a time column; 0 where it has one. Raises RecordError with
+    what is wrong and how to mend it.
 
-    orders = (False, True) if re.match(r"\d{1,2}[./-]\d{1,2}[./-]\d{2,4}\b", texts[0].strip()) else (False,)
-    found = []
-    for dayfirst in orders:
-        try:
-            stamps = pd.to_datetime(pd.Series(texts), errors="raise", format="mixed", dayfirst=dayfirst)
-        except (ValueError, TypeError, OverflowError):
-            continue
-        found.append((stamps - stamps.iloc[0]).dt.total_seconds().to_numpy())
-    return min(found, key=np.ptp, default=None)
-
-
-def _pick(names: list[str], wanted: str | None, pattern: str, role: str, taken: set[int]) -> list[int]:
-    """Columns that may play a role: the one named by the user, or those whose name is usual for it."""
-    if wanted is not None:
-        exact = [i for i, n in enumerate(names) if n.lower() == wanted.lower()]
-        if not exact:
-            raise RecordError(f"there is no column {wanted!r} for the {role}; the columns are {', '.join(names)}")
-        return exact[:1]
-    return [i for i, n in enumerate(names) if i not in taken and re.fullmatch(pattern, n, re.IGNORECASE)]
-
-
-def _levels(column: np.ndarray) -> int:
-    return len(np.unique(column[np.isfinite(column)]))
-
-
-def _columns(names, data, time, input, output) -> tuple[int, int, int, list[str]]:
-    """Which column is time, input and output, and what was assumed in choosing them."""
-    notes: list[str] = []
-    steady = [i for i, c in enumerate(data) if np.isfinite(c).sum() > 1]
-    rising = [i for i in steady if (np.diff(data[i][np.isfinite(data[i])]) >= 0).all() and _levels(data[i]) > 2]
-    named = _pick(names, time, TIME_NAMES, "time", set())
-    spoken_for = f"(?:{INPUT_NAMES}|{OUTPUT_NAMES}|unnamed.*)?"
-    named_otherwise = [i for i in rising if re.fullmatch(spoken_for, names[i], re.IGNORECASE)]
-    unnamed = [i for i in named_otherwise if not names[i]]
-    candidates = named or [i for i in rising if i not in named_otherwise] or unnamed
-    if not candidates:
-        raise RecordError(f"no time column found among {', '.join(names)}; name it with --time")
-    t = candidates[0]
-    if not named:
-        notes.append(f"Time was taken from the column {names[t] or t + 1!r}, the one that only grows.")
-    taken = {t} | {i for i in range(len(names)) if not names[i] or names[i].lower().startswith("unnamed")}
-    if output is not None:
-        taken |= set(_pick(names, output, OUTPUT_NAMES, "output", taken))
-    inputs = _pick(names, input, INPUT_NAMES, "input", taken)
-    free = [i for i in steady if i not in taken and 1 < _levels(data[i]) <= max(20, len(data[i]) // 20)]
-    u_all = [i for i in inputs if _levels(data[i]) > 1] or inputs or sorted(free, key=lambda i: _levels(data[i]))[:1]
-    if not u_all:
-        raise RecordError(f"no input column found among {', '.join(names)}; name it with --input")
-    u = u_all[0]
-    outputs = [i for i in _pick(names, output, OUTPUT_NAMES, "output", {t, u}) if i != u]
-    y_all = outputs or [i for i in steady if i not in taken | {u} and _levels(data[i]) > 1]
-    if not y_all:
-        raise RecordError(f"no output column found among {', '.join(names)}; name it with --output")
-    y = y_all[0]
-    for role, chosen, found, option in (("Input", u, u_all, "--input"), ("Output", y, y_all, "--output")):
-        others = [names[i] for i in found if i != chosen]
-        more = f"; {', '.join(others)} could be it too ({option})" if others else ""
-        notes.append(f"{role}: column {names[chosen]!r}{more}.")
-    return t, u, y, notes
-
-
-def read_csv(path: str | Path, time: str | None = None, input: str | None = None, output: str | None = None) -> Record:
-    """Read one experiment from a logger's CSV file.
-
-    path: text with one sample per line; comma, semicolon, tab or blanks between the columns, decimal point or comma,
-    units in the head as ``[s]`` or ``(°C)`` or in a line below it, an index column without a name, dates as time
-    stamps, repeated and missing samples are understood. time, input, output: column names, where they should not be
-    found by themselves. Raises RecordError with what is wrong and how to mend it.
+    >>> import tempfile
+    >>> from loopbook.records.reading import read_record
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "step.csv"
+    ...     rows = [f"{k},{int(k > 1)},{min(k, 6)}" for k in range(12)]
+    ...     _ = file.write_text("\\n".join(["t,u,y", *rows]))
+    ...     len(read_record(file).time)
+    12
     """
     path = Path(path)
-    cells = cells_of(text_of(path), set(TIME_UNITS))
-    names, units = (list(part) for part in zip(*(name_and_unit(h) for h in cells.heads), strict=True))
+    cells = sheet_cells(path) if is_sheet(path) else cells_of(text_of(path), set(TIME_UNITS))
+    names = [read_name(head) for head in cells.heads]
     data = [cells.numbers(i) for i in range(len(names))]
-    stamped = None
-    for i, column in enumerate(data):
-        if np.isnan(column).mean() > 0.5 and (seconds := _seconds(cells.column(i))) is not None:
-            data[i], units[i], stamped = seconds, "s", i
-    t, u, y, notes = _columns(names, data, time, input, output)
+    stamps, aside, notes = _stamps(cells, names, data)
+    for i, seconds in stamps.items():
+        data[i] = seconds
+    t = _time(names, data, set(stamps), time or None, interval)
+    if t is not None and not time and not names[t].says(Role.TIME):
+        notes.append(f"Time was taken from the column {names[t].text or t + 1!r}, the one that only grows.")
+    columns = choose(names, data, t, aside | set(stamps), input or None, output or None)
+    u, y = columns.input, columns.output
+    said = [_how_cut(cells), *cells.notes]
+    if t is None:
+        samples, scale, unit, more = np.arange(len(data[u])) * interval, 1.0, "s", []
+        said.append(f"There is no time column: the samples were taken to be {interval:g} s apart.")
+    elif t in stamps:
+        samples, scale, unit, more = data[t], 1.0, "time stamps", notes
+    else:
+        samples, (scale, unit, more) = data[t], _scale(names[t], data[t])
+        more = [*notes, *more]
+    said += list(columns.notes)
+    if np.isfinite(data[u]).mean() < 0.5:
+        data[u] = _held(data[u])
+        said.append(f"{names[u].text!r} is written only where it changes; it was held in between.")
+    for i in (u, y):
+        if cells.is_state(i):
+            said.append(f"{names[i].text!r} holds words: on, open, yes and the like were read as 1, the others as 0.")
+    read = _cleaned(samples * scale, [data[u], data[y], *[data[i] for i in columns.others]])
+    others = tuple(Other(names[i].text, column) for i, column in zip(columns.others, read.values[2:], strict=True))
+    faults = find_faults(read.time, read.values[0], read.values[1])
+    described = (names[u].text or "u", names[y].text or "y", names[u].unit, names[y].unit)
+    assumptions = (*said, *more, *read.notes, *faults.notes)
+    return Record(
+        *(read.time, read.values[0], read.values[1], *described, path.name, assumptions, read.held),
+        others=others,
+        left_out=faults.left_out,
+        cut=faults.cut,
+        time_unit=unit,
+    )
+
+
+def _how_cut(cells: Cells) -> str:
+    if cells.delimiter == "cells":
+        return "The table was read from the file's cells."
     decimals = f", decimals by {cells.decimal!r}" if cells.decimal else ""
-    notes.insert(0, f"Columns are separated by {cells.delimiter!r}{decimals}.")
-    if stamped == t:
-        notes.append(f"Time stamps of {names[t]!r} were turned into seconds from the first sample.")
-    scale, said = _scale(units[t], data[t])
-    clock, values, held, more = _cleaned(data[t] * scale, data[u], data[y])
-    described = (names[u] or "u", names[y] or "y", units[u], units[y])
-    return Record(clock, *values, *described, path.name, tuple(notes + said + more), held)
+    return f"Columns are separated by {cells.delimiter!r}{decimals}."
 
 
-def _scale(unit: str, clock: np.ndarray) -> tuple[float, list[str]]:
-    """Seconds in the column's unit of time, and what was assumed."""
-    if unit:
-        scale = TIME_UNITS.get(unit.lower().strip("."))
+def _time(names: list[Name], data: list[np.ndarray], stamps: set[int], wanted: str | None, interval: float):
+    """The column of the time, None where the interval stands for it."""
+    t = None if interval and not wanted else find_time(names, data, stamps, wanted)
+    if t is None and not interval:
+        listed = ", ".join(n.text for n in names if n.text)
+        raise RecordError(
+            f"no time column found among {listed}; name it with --time, or say how far apart the samples are with "
+            "--interval, in seconds (--interval 0.1)"
+        )
+    return t
+
+
+def _stamps(cells: Cells, names: list[Name], data: list[np.ndarray]) -> tuple[dict[int, np.ndarray], set[int], list]:
+    """Columns of time stamps as seconds; a column of dates and one of times of day are joined in the second.
+
+    Returns the seconds by column, the columns that are no signals, and what was done.
+    """
+    texts = {i: cells.column(i) for i, column in enumerate(data) if np.isnan(column).mean() > 0.5}
+    clocks = {i: found for i, column in texts.items() if (found := clock.times_of_day(column)) is not None}
+    days = {i: found for i, column in texts.items() if i not in clocks and (found := clock.dates(column)) is not None}
+    for i, column in texts.items():
+        if i not in clocks and i not in days and (found := clock.other_stamps(column)) is not None:
+            days[i] = found
+    if clocks and days and (joined := _joined_stamps(cells, min(days), min(clocks))) is not None:
+        d, c = min(days), min(clocks)
+        note = f"Date {names[d].text!r} and time {names[c].text!r} were joined and turned into seconds."
+        return {c: joined}, set(texts), [note]
+    notes, stamps = [], {}
+    for i, (seconds, passed) in clocks.items():
+        stamps[i] = seconds - seconds[np.isfinite(seconds)][0]
+        past = ", past midnight" if passed else ""
+        notes.append(f"Times of day in {names[i].text!r} were turned into seconds from the first sample{past}.")
+    for i, seconds in days.items():
+        stamps[i] = seconds - seconds[np.isfinite(seconds)][0]
+        notes.append(f"Time stamps of {names[i].text!r} were turned into seconds from the first sample.")
+    return stamps, set(texts), notes
+
+
+def _joined_stamps(cells: Cells, date: int, time: int) -> np.ndarray | None:
+    both = [f"{d} {t}" if d and t else "" for d, t in zip(cells.column(date), cells.column(time), strict=True)]
+    seconds = clock.dates(both)
+    return None if seconds is None else seconds - seconds[np.isfinite(seconds)][0]
+
+
+def _scale(name: Name, samples: np.ndarray) -> tuple[float, str, list[str]]:
+    """Seconds in the column's unit of time, the unit, and what was assumed."""
+    if name.unit:
+        scale = TIME_UNITS.get(name.unit.lower().strip("."))
         if scale is None:
-            raise RecordError(f"time is in {unit!r}; known units are {', '.join(TIME_UNITS)}")
-        return scale, []
-    start = np.nanmin(clock)
-    for least, scale, name in SINCE_1970:
+            raise RecordError(f"time is in {name.unit!r}; known units are s, ms, us, ns, min, h, d")
+        return scale, name.unit, []
+    if set(name.words) & {"millis", "ms"}:
+        return 1e-3, "ms", []
+    if set(name.words) & {"micros", "us"}:
+        return 1e-6, "us", []
+    start = np.nanmin(samples)
+    for least, scale, unit in SINCE_1970:
         if start > least:
-            return scale, [f"Time was taken for {name} since 1970."]
-    return 1.0, ["Time has no unit; seconds were assumed."]
+            return scale, unit, [f"Time was taken for {unit} since 1970."]
+    gap = float(np.nanmedian(np.diff(samples)))
+    whole = bool((samples[np.isfinite(samples)] == np.round(samples[np.isfinite(samples)])).all())
+    doubt = f" The samples are then {gap:g} s apart: if they are milliseconds, write {name.text}_ms in the head."
+    return 1.0, "s", ["Time has no unit; seconds were assumed." + (doubt if whole and gap >= 10 else "")]
 
 
-def _cleaned(clock: np.ndarray, u: np.ndarray, y: np.ndarray):
+class _Read:
+    """Cleaned columns: time from zero, values, the input with its own times where the output misses some, notes."""
+
+    def __init__(self, time: np.ndarray, values: list[np.ndarray], held, notes: list[str]):
+        self.time, self.values, self.held, self.notes = time, values, held, notes
+
+
+def _cleaned(samples: np.ndarray, columns: list[np.ndarray]) -> _Read:
     """Drop what is missing, order by time, join samples of the same time, begin at zero; say so.
 
-    Returns time, [u, y], the input with its own times where the output misses some, and what was done.
+    columns: input, output, and further inputs, whose missing values are held.
     """
     notes = []
-    known = np.isfinite(clock) & np.isfinite(u)
+    u, y, *others = columns
+    others = [_held(column) for column in others]
+    known = np.isfinite(samples) & np.isfinite(u)
     whole = known & np.isfinite(y)
     if not whole.all():
         notes.append(f"{(~whole).sum()} of {len(whole)} samples lack a value and were left out.")
@@ -160,9 +183,9 @@ def _cleaned(clock: np.ndarray, u: np.ndarray, y: np.ndarray):
         raise RecordError(
             f"only {whole.sum()} samples have time, input and output; at least {FEWEST_SAMPLES} are needed"
         )
-    if (np.diff(clock[whole]) < 0).any():
+    if (np.diff(samples[whole]) < 0).any():
         notes.append("Samples were not in the order of time and were sorted.")
-    time, both = _joined(clock[whole], [u[whole], y[whole]])
+    time, both = _joined(samples[whole], [u[whole], y[whole], *[o[whole] for o in others]])
     if len(time) < whole.sum():
         notes.append(f"{whole.sum() - len(time)} samples share a time stamp with another; their mean was taken.")
     gaps = np.diff(time)
@@ -172,9 +195,17 @@ def _cleaned(clock: np.ndarray, u: np.ndarray, y: np.ndarray):
         notes.append(f"Time starts at {time[0]:.6g} s and is counted from there.")
     held = None
     if known.sum() > whole.sum():
-        since, (input,) = _joined(clock[known], [u[known]])
+        since, (input,) = _joined(samples[known], [u[known]])
         held = (since[since >= time[0]] - time[0], input[since >= time[0]])
-    return time - time[0], both, held, notes
+    return _Read(time - time[0], both, held, notes)
+
+
+def _held(column: np.ndarray) -> np.ndarray:
+    """Missing values hold the last one known."""
+    known = np.isfinite(column)
+    last = np.maximum.accumulate(np.where(known, np.arange(len(column)), 0))
+    filled = column[last]
+    return np.where(np.isfinite(filled), filled, column[known][0] if known.any() else 0.0)
 
 
 def _joined(clock: np.ndarray, columns: list[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]]:

@@ -1,14 +1,24 @@
-"""A recorded experiment: time, input and output. `reading.read_csv` makes it from a logger's file."""
+"""A recorded experiment: time, input and output. `reading.read_record` makes it from a logger's file."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from derivations.errors import LoopbookError
+
 FEWEST_SAMPLES = 10
 
 
-class RecordError(ValueError):
+class RecordError(LoopbookError):
     """The record cannot be used; the message says what is missing and how to mend it."""
+
+
+@dataclass(frozen=True)
+class Other:
+    """A further input or disturbance that was recorded and moves. values: shape (n,), in its own unit."""
+
+    name: str
+    values: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -17,7 +27,15 @@ class Record:
 
     time: seconds from the first sample, strictly increasing, shape (n,). u, y: input and output in their own units,
     shape (n,). assumptions: what the reader took for what, one sentence each. held: (time, u) with the samples too
-    whose output is missing, None where none is: the input may step at one of them.
+    whose output is missing, None where none is: the input may step at one of them. others: further inputs that move.
+    left_out: samples that a fit must not use (outliers, a sensor at its limit), shape (n,), None for none. cut: the
+    share of samples at a sensor's limit. time_unit: of the file's column.
+
+    >>> import numpy as np
+    >>> from loopbook.records.record import Record
+    >>> t = np.arange(12.0)
+    >>> Record(t, np.where(t > 2, 1.0, 0.0), np.where(t > 4, 0.6, 0.0)).input_name
+    'u'
     """
 
     time: np.ndarray
@@ -30,6 +48,10 @@ class Record:
     source: str = ""
     assumptions: tuple[str, ...] = field(default=())
     held: tuple[np.ndarray, np.ndarray] | None = None
+    others: tuple[Other, ...] = ()
+    left_out: np.ndarray | None = None
+    cut: float = 0.0
+    time_unit: str = "s"
 
     def __post_init__(self):
         arrays = [np.asarray(a, float) for a in (self.time, self.u, self.y)]
@@ -41,8 +63,15 @@ class Record:
             raise RecordError("time, input and output must be finite; remove or fill the missing values")
         if (np.diff(arrays[0]) <= 0).any():
             raise RecordError("time must increase strictly")
+        if self.left_out is None:
+            object.__setattr__(self, "left_out", np.zeros(len(arrays[0]), bool))
         for name, a in zip(("time", "u", "y"), arrays, strict=True):
             object.__setattr__(self, name, a)
+
+    @property
+    def used(self) -> np.ndarray:
+        """The samples that a fit may use, shape (n,), true or false."""
+        return ~self.left_out
 
     @property
     def sampling(self) -> float:

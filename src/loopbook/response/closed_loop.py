@@ -112,16 +112,21 @@ def closed_loop_step(
     """
     if source not in INPUTS:
         raise ResponseError(f"source = {source!r}; one of {', '.join(INPUTS)}")
-    if source == "disturbance" and path is None:
+    if source != "disturbance":
+        return _InOwnUnits.of(process, regulator).step(source, horizon)
+    if path is None:
         raise ResponseError("a disturbance needs the path it takes to the output: Loop(process, regulator, path)")
     loop = _InOwnUnits.of(process, regulator)
-    if source != "disturbance":
-        return loop.step(source, horizon)
-    total: tuple[Signal, Signal] | None = None
-    for term in path.terms if isinstance(path, DelayedSum) else (path,):
+
+    def through(term: Process) -> tuple[Signal, Signal]:
         y, u = loop.step(source, horizon, term.rational)
-        pair = y.delayed(term.delay), u.delayed(term.delay)
-        total = pair if total is None else (total[0] + pair[0], total[1] + pair[1])
+        return y.delayed(term.delay), u.delayed(term.delay)
+
+    first, *others = path.terms if isinstance(path, DelayedSum) else (path,)
+    total = through(first)
+    for term in others:
+        y, u = through(term)
+        total = total[0] + y, total[1] + u
     return total
 
 
@@ -146,8 +151,8 @@ class _InOwnUnits:
         inside, gain = _in_own_units(process, time)
         T, S, R = (units.in_units(p, time) for p in (regulator.T, regulator.S, regulator.R))
         size = units.size(R)
-        of_error = [units.in_units(p, 1.0, size / gain) for p in (T, S)]
-        return cls(inside, Regulator(*of_error, units.in_units(R, 1.0, size)), time, gain)
+        T, S = (units.in_units(p, 1.0, size / gain) for p in (T, S))
+        return cls(inside, Regulator(T, S, units.in_units(R, 1.0, size)), time, gain)
 
     def step(self, source: str, horizon: float, path: Process | None = None) -> tuple[Signal, Signal]:
         """(y, u) in seconds and in the units outside."""

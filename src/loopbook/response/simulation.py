@@ -17,15 +17,19 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.numerics.collocation import DEGREE, DelayEquation, cell_operator, graded_mesh, radau
 from loopbook.numerics.signals import Signal
+from loopbook.plots.curves import curves
+from loopbook.plots.shown import shown_once
+from loopbook.plots.stairs import stairs
 from loopbook.process.sampled import SampledProcess, held, sample
 from loopbook.process.transfer_function import Process
 
 Course = float | Sequence[float] | np.ndarray | Callable[[float], float]
 
 
-class SimulationError(ValueError):
+class SimulationError(LoopbookError):
     """A simulation that cannot be run as asked; the message says what to change."""
 
 
@@ -87,10 +91,6 @@ class Simulation:
 
     def plot(self) -> Any:
         """Output and input as a matplotlib figure, u as the staircase that it is."""
-        from loopbook.plots.curves import curves
-        from loopbook.plots.shown import shown_once
-        from loopbook.plots.stairs import stairs
-
         y = {"output": (self.t, self.y), "reference": stairs(self.t, self.reference)}
         return shown_once(curves({"output $y$": y, "input $u$": {"u": stairs(self.t, self.u)}}, "Simulation"))
 

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.numerics.signals import Signal
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.response.signal_metrics import measures
@@ -29,7 +30,7 @@ NO_STEP = 1e-12
 Progress = Callable[[np.ndarray], np.ndarray]
 
 
-class StepMetricsError(ValueError):
+class StepMetricsError(LoopbookError):
     """The response cannot be measured; the message says what to mend."""
 
 

@@ -8,8 +8,10 @@ from fractions import Fraction
 from math import pi, radians
 from typing import Any, NamedTuple
 
+from derivations.tuning import pid_by_angles as by_angles
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidParallel
+from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
@@ -33,10 +35,8 @@ def parameters(
     import mpmath
     import sympy
 
-    from derivations.tuning import pid_by_angles as by_angles
-
     with mpmath.workdps(digits + 10):
-        number = lambda v: mpmath.mpf(str(sympy.N(sympy.sympify(v), digits + 10)))  # noqa: E731
+        number = lambda v: mpmath.mpf(str(sympy.N(sympy.sympify(v, strict=True), digits + 10)))  # noqa: E731
         w, margin, f, a = (number(v) for v in (w, phase_margin, sympy.pi / 4 if zero is None else zero, pole))
         at = mpmath.mpc(0, w)
         num, den = ([_decimal(c) for c in row] for row in (process.num, process.den))
@@ -99,8 +99,6 @@ def angles_of(process: Process, controller: PidParallel) -> Angles:
     """
     import numpy as np
 
-    from loopbook.loop.continuous import Loop
-
     crossovers = Loop(process, controller).margins().gain_crossovers
     zeros = np.roots(controller.transfer()[0])
     if len(crossovers) != 1 or len(zeros) != 2 or np.iscomplex(zeros).any() or (zeros.real >= 0).any():
@@ -126,8 +124,17 @@ def computed() -> tuple[TuningRule, ...]:
     }
     return (
         TuningRule(
-            *("phase-margin-pid", "phase margin, PID", Takes.PROCESS, "PID", None),
-            *("a phase margin at a crossover frequency", None, SOURCE, _settings, options, ("w", "phase_margin")),
+            "phase-margin-pid",
+            "phase margin, PID",
+            Takes.PROCESS,
+            "PID",
+            None,
+            "a phase margin at a crossover frequency",
+            None,
+            SOURCE,
+            _settings,
+            options,
+            ("w", "phase_margin"),
             text="C(s) G(s) has magnitude 1 and the phase margin at i w, exact with dead time",
         ),
     )

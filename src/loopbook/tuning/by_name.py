@@ -59,7 +59,8 @@ def tune(known: Any, rule: str | Sequence[str] = "", action: str = "", *, all: b
     data = ProcessData.of(known)
     if all:
         chosen = [r for r in rules().values() if r.fits(data.integrates) and action.upper() in ("", r.action)]
-        return _side_by_side(data, [r for r in chosen if not rule or r in named(rule)], options)
+        meant = [rule] if isinstance(rule, str) else rule
+        return _side_by_side(data, [r for r in chosen if not rule or any(r in named(m) for m in meant)], options)
     if not isinstance(rule, str):
         return _side_by_side(data, [_chosen(data, name, action) for name in rule], options)
     if not rule:

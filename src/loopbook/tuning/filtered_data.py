@@ -1,7 +1,9 @@
 """Process data adjusted for the derivative filter, before an AMIGO rule is asked (pid-report, section 5.3.2)."""
 
+from dataclasses import replace
 from typing import Any
 
+from derivations.tuning import amigo
 from loopbook.experiments.data import StepData, TwoLagData
 from loopbook.tuning.result import RuleDoesNotApply
 
@@ -16,11 +18,7 @@ def with_filter(data: Any, Tf: float) -> Any:
     >>> with_filter(StepData(Kp=1, T=1, L=0.5), Tf=0.2)
     StepData(Kp=1, T=1.1, L=0.6)
     """
-    from dataclasses import replace
-
     import sympy
-
-    from derivations.tuning import amigo
 
     if not Tf >= 0:
         raise RuleDoesNotApply(f"Tf = {Tf!r} s: a filter's time constant is zero or positive")

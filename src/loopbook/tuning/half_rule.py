@@ -43,6 +43,7 @@ def lags_of(process: Process) -> tuple[tuple[float, ...], tuple[float, ...]]:
     >>> lags_of(Process([1], [8, 6, 1]))
     ((4.0, 2.0), ())
     """
+    lags: tuple[float, ...]
     if process.order == 1 and process.den[-1]:
         lags, poles = (process.den[0] / process.den[1],), process.poles[:0]
     else:

@@ -14,11 +14,15 @@ the edge where two frequencies bind at once, with erratic responses; the method 
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from derivations.tuning.takes import Takes
+from loopbook.controllers.pid_forms import PidStandard
+from loopbook.loop.stability import unstable_roots
+from loopbook.loop.transfer import LoopTransfer
 from loopbook.process.frequency_response import NoSuchFrequency, frequency_at, phase
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo_branch import (
@@ -158,7 +162,9 @@ def _where_derivative_is(process: Process, kd: float, low: float, high: float, M
     return float(brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, rtol=1e-13))
 
 
-def _second_touch(process: Process, scale: float, start: float, low: float, high: float, near: float, M: float):
+def _second_touch(
+    process: Process, scale: float, start: float, low: float, high: float, near: float, M: float
+) -> tuple[float, float]:
     """The touching frequencies w and w2 where the smallest clearance around w2 is exactly zero.
 
     Dead time brings the curve past the circle once a turn, and the grid may have seen the wrong turn first. So the
@@ -198,9 +204,7 @@ def _bisected(process: Process, scale: float, low: float, high: float, M: float)
     return low, second
 
 
-def _result(process: Process, rule: str, M: float, gains: tuple[float, float, float], touches) -> Migo:
-    from loopbook.controllers.pid_forms import PidStandard
-
+def _result(process: Process, rule: str, M: float, gains: tuple[float, float, float], touches: Iterable[float]) -> Migo:
     k, ki, kd = map(float, gains)
     settings = PidStandard(K=k, Ti=k / ki, Td=kd / k, b=0.0)
     stable = is_stable(process, settings)
@@ -209,11 +213,8 @@ def _result(process: Process, rule: str, M: float, gains: tuple[float, float, fl
     return Migo(settings, rule, SOURCE, M=M, touches=tuple(map(float, touches)), stable=stable)
 
 
-def is_stable(process: Process, regulator) -> bool:
+def is_stable(process: Process, regulator: PidStandard) -> bool:
     """Are all roots of the loop to the left of the imaginary axis, by its argument count?"""
-    from loopbook.loop.stability import unstable_roots
-    from loopbook.loop.transfer import LoopTransfer
-
     num, den = regulator.transfer()
     loop = LoopTransfer(tuple(np.polymul(num, process.num)), tuple(np.polymul(den, process.den)), process.delay)
     return unstable_roots(loop) == 0

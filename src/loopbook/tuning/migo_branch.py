@@ -5,10 +5,13 @@ clearance |C + L(i w)| - R on grids that see every approach to the circle.
 """
 
 import math
+from collections.abc import Callable, Sequence
 from functools import cache
+from typing import Any
 
 import numpy as np
 
+from derivations.loop import robustness as d
 from loopbook.process.frequency_response import response
 from loopbook.process.transfer_function import Process
 
@@ -25,21 +28,17 @@ def circle(M: float) -> tuple[float, float]:
     """
     import sympy
 
-    from derivations.loop import robustness
-
     if not M > 1:
         raise ValueError(f"M = {M}: a loop's largest sensitivity exceeds 1, so M must")
-    joint = robustness.joint_circle()
-    at = {robustness.M: sympy.Float(M, 30)}
+    joint = d.joint_circle()
+    at = {d.M: sympy.Float(M, 30)}
     return -float(joint.centre.subs(at)), float(joint.radius.subs(at))
 
 
 @cache
-def _branch_functions():
+def _branch_functions() -> list[Callable[..., np.ndarray]]:
     """k, ki and kd of the smooth branch as NumPy functions of (w, a, b, r, da, db, C, R)."""
     import sympy
-
-    from derivations.loop import robustness as d
 
     found = d.smooth_branch()
     arguments = (d.w, d.a, d.b, d.r, d.da, d.db, d.C, d.R)
@@ -55,7 +54,7 @@ def smooth_branch(process: Process, w: np.ndarray, M: float = M_DEFAULT) -> np.n
     return np.array([k, ki_of_pi + w**2 * kd, kd])
 
 
-def clearance(process: Process, gains, w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
+def clearance(process: Process, gains: Sequence[Any], w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
     """|C + L(i w)| - R: negative inside the circle. gains: (k, ki, kd), each a number or broadcastable against w."""
     k, ki, kd = gains
     C, R = circle(M)

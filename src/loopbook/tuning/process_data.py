@@ -178,6 +178,7 @@ class ProcessData:
         if data is None:
             lags = self._own_lags()
             if lags is not None:
+                assert self.model is not None, "own lags are those of a model"
                 data, how = TwoLagData(stepped["Kp"], *lags, self.model.delay), "its own lags and dead time"
             else:
                 point, step_data = self._frequency()[0], StepData(*(stepped[n] for n in ("Kp", "T", "L")))

@@ -8,6 +8,7 @@ import difflib
 import pkgutil
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 
@@ -38,7 +39,16 @@ def rules() -> dict[str, TuningRule]:
         computed = getattr(import_module(f"{FOLDER}.{module}"), "computed", None)
         found += computed() if computed else ()
     found.sort(key=lambda rule: (RANK.get(rule.takes, 0), rule.year or 9999))
-    return {rule.name: rule for rule in found}
+    return {rule.name: replace(rule, instead=fitting) for rule in found}
+
+
+def fitting(integrates: bool | None, action: str) -> list[str]:
+    """The names of the rules that are meant for such a process.
+
+    >>> fitting(True, "PI")[0]
+    'simc-pi-integrating'
+    """
+    return [rule.name for rule in rules().values() if rule.fits(integrates) and rule.action == action]
 
 
 class _Rules(Mapping[str, TuningRule]):

@@ -20,6 +20,11 @@ class Tuning:
     action; c = 1 where the source differentiates the error. rule: its name in `loopbook.tuning.RULES`. source: who
     and where. notes: what limits the trust in these numbers, one sentence each. values: what the formulas were given,
     by name. known_by: how that follows from what the rule was given, "" where it was given itself.
+
+    >>> print(Tuning(PidStandard(2.0, 4.0), "own", "given", ("a guess",)))
+    own: K = 2, Ti = 4 s, b = 1 (standard form)
+    source: given
+    mind: a guess
     """
 
     pid: PidStandard

@@ -5,7 +5,7 @@
 data: a `Process`, what experiments tell of it, an identified model; `process_data` says how the one leads to the other.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -23,7 +23,8 @@ class TuningRule:
     name: in `loopbook.tuning.RULES`. title: in tables. takes: what it must know of the process. action: P, PI or PID.
     integrating: for integrating processes (True), stable ones (False), both (None). aim: what its settings are meant
     for. year, source: when (None: no date is known) and who. options: by name, what they are; those in `required` must
-    be given. variant_of: the rule of which this is another source's variant. text: its formulas or its idea.
+    be given. variant_of: the rule of which this is another source's variant. text: its formulas or its idea. instead:
+    the names of the rules for processes that integrate, or do not, with this action.
 
     >>> from loopbook.tuning.registry import rules
     >>> rules()["amigo-step-pid"].action, rules()["amigo-step-pid"].year
@@ -43,6 +44,7 @@ class TuningRule:
     required: tuple[str, ...] = ()
     variant_of: str = ""
     text: str = field(default="", repr=False)
+    instead: Callable[[bool | None, str], Sequence[str]] = field(default=lambda *_: (), repr=False, compare=False)
 
     def __call__(self, *known: Any, **options: Any) -> Tuning:
         """The settings for a process. known: as for `ProcessData.of`. options: those of the rule.
@@ -74,10 +76,7 @@ class TuningRule:
         advice = error.advice
         wrong = data.integrates is not None and self.integrating not in (None, data.integrates)
         if not advice and wrong:
-            from loopbook.tuning.registry import rules
-
-            fitting = [r.name for r in rules().values() if r.fits(data.integrates) and r.action == self.action]
-            advice = f"use {', '.join(fitting)}"
+            advice = f"use {', '.join(self.instead(data.integrates, self.action))}"
         named = error.reason.lower().startswith(self.name.split("-")[0])
         return RuleDoesNotApply(error.reason if named else f"{self.name}: {error.reason}", advice)
 

@@ -1,16 +1,21 @@
 """`loopbook doctor`: is the environment as it should be? One line per question, and how to mend what is not."""
 
 import importlib.util
+import os
 import re
 import shutil
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
-from notebook_reports.project import atomic
-from notebook_reports.project.project import EnvironmentProblem, Project
+from notebook_reports.project import runtime
+from notebook_reports.project.project import Project
+from notebook_reports.project.source import Source, SourceCell
 
 OLDEST = (3, 11)
 NEEDED = (
@@ -39,7 +44,6 @@ def examine(project: Project) -> Iterator[Answer]:
         ("disk", _disk),
         ("kernel", _kernel),
         ("PDF engine", _typst),
-        ("TeX (--engine latex)", _tex),
     ]
     for name, question in questions:
         try:
@@ -93,10 +97,9 @@ def _loopbook(project: Project) -> tuple[str, str]:
 
 def _folders(project: Project) -> tuple[str, str]:
     for folder in (project.reports, project.cache):
-        try:
-            atomic.writable(folder)
-        except EnvironmentProblem as problem:
-            return "FAIL", str(problem)
+        there = next(path for path in (folder, *folder.parents) if path.exists())
+        if not (there.is_dir() and os.access(there, os.W_OK | os.X_OK)):
+            return "FAIL", f"{there} cannot be written; choose another folder with -o DIR"
     return "ok", f"{project.reports} and {project.cache} can be written"
 
 
@@ -106,20 +109,28 @@ def _disk(project: Project) -> tuple[str, str]:
 
 
 def _kernel(project: Project) -> tuple[str, str]:
-    from notebook_reports.project.source import Cell, Source
     from notebook_reports.run import kernels
     from notebook_reports.run.run import run
 
     text = "1 + 1"
-    cell = {"cell_type": "code", "id": "one", "metadata": {}, "source": text, "outputs": [], "execution_count": None}
+    cell: dict[str, Any] = {
+        "cell_type": "code",
+        "id": "one",
+        "metadata": {},
+        "source": text,
+        "outputs": [],
+        "execution_count": None,
+    }
     content = {"cells": [cell], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
-    path = project.cache / "doctor.ipynb"
-    from notebook_reports.run.canonical import dump
-
-    atomic.write(path, dump(content))
     started = time.monotonic()
-    done = run(Source(path, (Cell(1, "one", "code", text, (), ""),), content), "doctor", project)
-    path.unlink()
+    with tempfile.TemporaryDirectory(dir=runtime.folder()) as folder:
+        elsewhere = replace(project, cache=Path(folder))
+        done = run(
+            Source(Path(folder) / "x.ipynb", (SourceCell(1, "one", "code", text, (), ""),), content),
+            "doctor",
+            elsewhere,
+        )
+    runtime.tidy()
     if done.failure:
         return "FAIL", done.failure.line
     return "ok", f"starts, computes and ends in {time.monotonic() - started:.1f} s over {kernels.TRANSPORT}"
@@ -132,8 +143,3 @@ def _typst(_: Project) -> tuple[str, str]:
     if not made.startswith(b"%PDF"):
         return "FAIL", "typst made no PDF; run make clean, then make"
     return "ok", f"typst {metadata.version('typst')} makes a PDF"
-
-
-def _tex(_: Project) -> tuple[str, str]:
-    found = shutil.which("xelatex")
-    return ("ok", found) if found else ("note", "no xelatex; only --engine latex needs it")

@@ -1,31 +1,33 @@
 """One notebook to build: what has to be done and why, and the doing of it."""
 
 import json
-import threading
+import shlex
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from notebook_reports.memory import fingerprint, stamps
+from notebook_reports.build import writing
+from notebook_reports.build.where import output_paths
+from notebook_reports.build.writing import Exporter
+from notebook_reports.ledger import harvest
+from notebook_reports.memory import fingerprint, inputs, stamps
+from notebook_reports.memory.hashes import digest, hash_now, of_bytes
+from notebook_reports.memory.inputs import Input
 from notebook_reports.project import atomic
 from notebook_reports.project.failures import Failure
 from notebook_reports.project.project import EnvironmentProblem, Notebook, Project
 from notebook_reports.project.source import Source
-from notebook_reports.run.quick_imports import import_nbformat
-
-Exporter = Callable[..., bytes]
-_EXPORTING = threading.Lock()  # the exporters keep state while they write
+from notebook_reports.run.canonical import canonical, dump, renew_prose
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a build is asked for. output: the folder of the reports, None for the usual. exporter: see `export`."""
+    """What a build is asked for. output: the folder of the reports, None for the usual. exporter: see `writing`."""
 
     formats: tuple[str, ...] = ("pdf", "html", "ipynb")
-    engine: str = "typst"
     output: Path | None = None
     force: bool = False
     timeout: float = 600
@@ -34,7 +36,10 @@ class Wanted:
 
 @dataclass
 class Job:
-    """One notebook, with the reasons to run it and to export it again; no reasons where it is up to date."""
+    """One notebook, with the reasons to run it and to export it again; no reasons where it is up to date.
+
+    keep_older: reports of an earlier run stay where this one fails.
+    """
 
     notebook: Notebook
     source: Source
@@ -43,6 +48,7 @@ class Job:
     stamp: stamps.Stamp | None
     run_because: list[str]
     export_because: dict[str, list[str]]
+    keep_older: bool = False
 
     @property
     def idle(self) -> bool:
@@ -69,51 +75,36 @@ class Done:
 
 def plan(project: Project, notebook: Notebook, source: Source, parameters: Mapping[str, Any], wanted: Wanted) -> Job:
     """Compare what the last build recorded with what is there now."""
-    outputs = output_paths(project, notebook, parameters, wanted)
+    outputs = output_paths(project, notebook, parameters, wanted.formats, wanted.output)
+    declared = inputs.declared(project, source)
     if parameters or not notebook.own:
         why = ["other parameters"] if parameters else ["not of this project"]
         return Job(notebook, source, parameters, outputs, None, why, dict.fromkeys(outputs, why))
-    stamp = stamps.load(project, notebook)
-    now = fingerprint.of_run(project, source, stamp.used if stamp else [])
-    because = ["--force"] if wanted.force else fingerprint.differences(stamp.run if stamp else None, now)
-    exports: dict[str, list[str]] = {}
-    if not because:
-        for format, path in outputs.items():
-            prints = fingerprint.of_export(source, stamp.results, wanted.engine, format)
-            last = stamp.exports.get(str(path))
-            if last is None or stamps.print_of(path) != last["file"]:
-                exports[format] = [f"{path.name} is not there" if not path.exists() else f"{path.name} was changed"]
-            elif why := fingerprint.differences(last["prints"], prints):
-                exports[format] = why
+    found = stamps.look(project, notebook)
+    stamp = found.stamp
+    now = fingerprint.of_run(project, source, {*(stamp.inputs if stamp else ()), *declared})
+    because = [found.damage] if found.damage else fingerprint.differences(stamp.run if stamp else None, now)
+    because = ["--force"] if wanted.force else because
+    exports = {} if because or stamp is None else _outdated(project, source, stamp, outputs, wanted)
     return Job(notebook, source, parameters, outputs, stamp, because, exports)
 
 
-def output_paths(
-    project: Project, notebook: Notebook, parameters: Mapping[str, Any], wanted: Wanted
-) -> dict[str, Path]:
-    """Where each format goes.
-
-    A notebook of the project: ``reports/<id>.pdf``; with parameters of one's own ``reports/custom/<id>-q=0.6.pdf``.
-    One from elsewhere: beside it, the executed notebook as ``<name>.executed.ipynb``. With -o: below that folder.
-    """
-    if wanted.output is not None:
-        folder = wanted.output
-    elif notebook.own:
-        folder = project.reports / "custom" if parameters else project.reports
-    else:
-        folder = notebook.path.parent
-    stem = notebook.id + _suffix(parameters)
-    paths = {format: folder / f"{stem}.{format}" for format in wanted.formats}
-    if paths.get("ipynb") and paths["ipynb"].resolve() == notebook.path:
-        paths["ipynb"] = folder / f"{stem}.executed.ipynb"
-    return paths
-
-
-def _suffix(parameters: Mapping[str, Any]) -> str:
-    import re
-
-    text = "".join(f"-{name}={re.sub(r'[^A-Za-z0-9_.+-]+', '_', str(value))}" for name, value in parameters.items())
-    return text if len(text) <= 80 else "-" + fingerprint.digest(dict(parameters))
+def _outdated(
+    project: Project, source: Source, stamp: stamps.Stamp, outputs: Mapping[str, Path], wanted: Wanted
+) -> dict[str, list[str]]:
+    """The formats to be written again, and why: the file is not the one that was written, or it would be another."""
+    found: dict[str, list[str]] = {}
+    for format, path in outputs.items():
+        last = stamp.exports.get(str(path))
+        if wanted.output is not None:
+            found[format] = ["-o"]
+        elif last is None or hash_now(path) != last["file"]:
+            found[format] = [f"{path.name} was changed" if path.exists() else f"{path.name} is not there"]
+        else:
+            prints = fingerprint.of_export(source, stamp, format)
+            if why := fingerprint.differences(last["prints"], prints):
+                found[format] = why
+    return found
 
 
 def do(project: Project, job: Job, wanted: Wanted) -> Done:
@@ -131,119 +122,110 @@ def do(project: Project, job: Job, wanted: Wanted) -> Done:
 def repeat(job: Job) -> str:
     """The command that does this job again."""
     name = job.notebook.id if job.notebook.own else str(job.notebook.path)
-    import shlex
-
     given = [word for k, v in job.parameters.items() for word in ("-p", k, str(v))]
     return shlex.join(["loopbook", "build", name, *given])
 
 
+@dataclass
+class _Result:
+    """What a run gave, now or before: the content, canonical and in one order; its inputs with their prints."""
+
+    content: dict[str, Any]
+    stored: bytes
+    used: list[Input]
+    prints: fingerprint.Prints
+    seconds: float
+    warnings: list[list]
+
+
 def _do(project: Project, job: Job, wanted: Wanted) -> Done:
-    from notebook_reports.ledger import harvest
-    from notebook_reports.run.canonical import canonical, dump, renew_prose
-
-    notebook, source = job.notebook, job.source
-    stamped = notebook.own and not job.parameters
-    executed = stamps.executed_path(project, notebook)
-    if job.run_because:
-        from notebook_reports.run.run import run
-
-        if stamped:
-            stamps.forget(project, notebook)
-        began = time.time_ns()
-        ran = run(source, notebook.id, project, job.parameters, wanted.timeout)
-        content, warnings = ran.content, [list(w) for w in ran.warnings]
-        if ran.failure:
-            for path in job.outputs.values():
-                atomic.remove(path)
-            seen = stamps.failed_path(project, notebook)
-            atomic.write(seen, dump(content))
-            failure = Failure(**{**vars(ran.failure), "repeat": repeat(job)})
-            return Done(notebook, 0, [failure], warnings, ran=True)
-        used = fingerprint.used_by(project, source, ran.depends)
-        seconds, prints = ran.seconds, fingerprint.of_run(project, source, used, since=began)
-    else:
-        content = json.loads(executed.read_bytes())
-        plain = canonical(source.content, project.root, [c.id for c in source.cells])
-        content = renew_prose(content, plain)
-        used, seconds = job.stamp.used, job.stamp.seconds
-        prints, warnings = job.stamp.run, job.stamp.warnings
-    stored = dump(content)
-    content = json.loads(stored)  # in one order, run now or read: a report shows data in the order it is in
-    records = harvest.records(content, notebook.id)
+    """Run or remember, harvest, export, remember."""
+    remembers = job.notebook.own and not job.parameters and wanted.output is None
+    result = _run(project, job, wanted, remembers) if job.run_because else _renewed(project, job)
+    if isinstance(result, Done):
+        return result
+    records = harvest.records(result.content, job.notebook.id)
     found = [r.data() for r in records]
     counts = dict(Counter(r["table"] for r in found))
-    done = Done(notebook, 0, warnings=warnings, counts=counts, records=found, ran=bool(job.run_because))
-    if not stamped or wanted.output is not None:
-        done.failures += harvest.failing(records)  # a build that does not come before the ledger's judge
-    results = fingerprint.digest([c.get("outputs") for c in content["cells"]])
-    exports = {} if job.run_because else dict(job.stamp.exports)
-    todo = job.outputs if job.run_because else {f: job.outputs[f] for f in job.export_because}
-    for format, path in todo.items():
-        failures = _export(project, job, wanted, content, format, path)
-        if failures:
-            done.failures += failures
-            exports.pop(str(path), None)
-        else:
-            prints_now = fingerprint.of_export(source, results, wanted.engine, format)
-            exports[str(path)] = {"prints": prints_now, "file": stamps.print_of(path)}
-    if stamped:
-        atomic.write(executed, stored)
-        stamps.save_records(project, notebook, found)
-        digest = fingerprint.digest(found)
-        stamp = stamps.Stamp(prints, used, results, source.title, seconds, counts, digest, warnings, exports)
-        stamps.save(project, notebook, stamp)
-        atomic.remove(stamps.failed_path(project, notebook))
+    done = Done(job.notebook, 0, [], result.warnings, counts, found, ran=bool(job.run_because))
+    if not remembers:
+        done.failures += harvest.failing(records)  # no ledger's judge comes after this build
+    results = digest([c.get("outputs") for c in result.content["cells"]])
+    stamp = stamps.Stamp(
+        run=result.prints,
+        used=[[i.name, i.kind] for i in result.used],
+        executed="",
+        results=results,
+        title=job.source.title,
+        seconds=result.seconds,
+        counts=counts,
+        records="",
+        warnings=result.warnings,
+        pictures=fingerprint.pictures(result.content),
+        mimes=fingerprint.mimes(result.content),
+        exports={} if job.run_because or not job.stamp else dict(job.stamp.exports),
+    )
+    done.failures += _reports(project, job, wanted, result.content, stamp)
+    if remembers:
+        stamp.executed, stamp.records = stamps.keep(project, job.notebook, result.stored, found)
+        stamps.save(project, job.notebook, stamp)
+        atomic.remove(stamps.failed_path(project, job.notebook))
     return done
 
 
-def _export(project: Project, job: Job, wanted: Wanted, content: dict, format: str, path: Path) -> list[Failure]:
-    """Write one report; the failures, and then no report."""
-    from notebook_reports.run.canonical import dump
+def _run(project: Project, job: Job, wanted: Wanted, remembers: bool) -> "_Result | Done":
+    """Run the notebook. Where it fails: what is to be said, and nothing of it that looks finished is left."""
+    from notebook_reports.run.run import run
 
-    notebook = job.notebook
-    if format == "ipynb":
-        atomic.write(path, dump(content))
-        return []
-    export = wanted.exporter or reporter()
-    try:
-        atomic.write(path, export(content, format, notebook, job.source.title, wanted.engine))
-    except EnvironmentProblem:
-        raise
-    except Exception as error:
-        atomic.remove(path)
-        problems = getattr(error, "problems", None) or [error]
-        return [
-            Failure(
-                notebook.id,
-                f"{format}: {getattr(p, 'text', None) or f'{type(p).__name__}: {p}'}",
-                getattr(p, "cell", None) or 0,
-                repeat=repeat(job),
-                kind="export",
-            )
-            for p in problems
-        ]
-    return []
+    notebook, source = job.notebook, job.source
+    if remembers:
+        stamps.forget(project, notebook, output_paths(project, notebook))
+    began = time.time_ns()
+    ran = run(source, notebook.id, project, job.parameters, wanted.timeout)
+    warnings = [list(w) for w in ran.warnings]
+    if ran.failure:
+        for path in job.outputs.values() if not job.keep_older else ():
+            atomic.remove(path)
+        atomic.write(stamps.failed_path(project, notebook), dump(ran.content))
+        return Done(notebook, 0, [replace(ran.failure, repeat=repeat(job))], warnings, ran=True)
+    warnings += [[cell, text] for cell, text in _not_seen(project, source, ran)]
+    used = sorted({*inputs.seen(project, source, ran.depends, (*fingerprint.RUNS, *fingerprint.EXPORTS))})
+    used = sorted({*used, *inputs.declared(project, source)})
+    prints = fingerprint.of_run(project, source, used, since=began)
+    return _result(ran.content, used, prints, ran.seconds, warnings)
 
 
-def reporter() -> Exporter:
-    """What writes reports, one at a time; see `export`."""
-    import_nbformat()
-    import nbformat
+def _not_seen(project: Project, source: Source, ran: Any) -> list[tuple[int, str]]:
+    """What of the run no stamp holds, by cell."""
+    return [(ran.cell_of(at), text) for at, text in inputs.outside(project, source, ran.depends)]
 
-    from notebook_reports.export.exporters.choose import export
 
-    def call(content: dict, format: str, notebook: Notebook, title: str, engine: str) -> bytes:
-        with _EXPORTING:
-            return export(
-                nbformat.from_dict(content),
-                format,
-                name=notebook.id,
-                title=title,
-                document=notebook.folder.replace("_", "-"),
-                engine=engine,
-                assets=notebook.path.parent,
-                strict_alt=notebook.own,
-                mode="strict" if notebook.own else "mend",
-            )
+def _renewed(project: Project, job: Job) -> _Result:
+    """The last run's results in the prose of now."""
+    stamp = job.stamp
+    assert stamp is not None, "only what has a stamp is renewed"
+    plain = canonical(job.source.content, project.root, [c.id for c in job.source.cells])
+    content = renew_prose(stamps.executed(project, job.notebook), plain)
+    return _result(content, stamp.inputs, stamp.run, stamp.seconds, stamp.warnings)
 
-    return call
+
+def _result(content: dict, used: list[Input], prints: fingerprint.Prints, seconds: float, warnings: list) -> _Result:
+    stored = dump(content)  # and read again: a report shows data in one order, whether it was run now or before
+    return _Result(json.loads(stored), stored, used, prints, seconds, warnings)
+
+
+def _reports(project: Project, job: Job, wanted: Wanted, content: dict, stamp: stamps.Stamp) -> list[Failure]:
+    """Write the reports that are due, and into the stamp what was written; the failures."""
+    failures: list[Failure] = []
+    for format, path in job.outputs.items():
+        if not job.run_because and format not in job.export_because:
+            continue
+        stamp.exports.pop(str(path), None)
+        told = (job.notebook, job.source.title, wanted.exporter)
+        written = writing.write(path, format, content, *told, keep_older=job.keep_older)
+        if isinstance(written, bytes):
+            prints = fingerprint.of_export(job.source, stamp, format)
+            stamp.exports[str(path)] = {"prints": prints, "file": of_bytes(written)}
+        else:
+            failures += [replace(failure, repeat=repeat(job)) for failure in written]
+    return failures

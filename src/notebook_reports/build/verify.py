@@ -1,6 +1,7 @@
 """`loopbook verify`: two builds of two copies give the same bytes.
 
-They differ in folder, time, number of kernels (one, four), and in whether kernels are started afresh or forked.
+They differ in folder, time, number of kernels (one, four), in whether kernels are started afresh or forked, in home,
+language, time zone, umask and folder for temporary files; and in user, where this one may become another.
 """
 
 import os
@@ -8,8 +9,10 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -17,21 +20,43 @@ from notebook_reports.project.project import EnvironmentProblem, Project
 from notebook_reports.run.warm import PLAIN
 
 KINDS = (".ipynb", ".pdf", ".html", ".csv")
-COPIES = (("a", 1), ("another-folder-with-a-longer-name", 4))
+LIMIT = 3600  # s for one build
+NOBODY = 65534
+
+
+@dataclass(frozen=True)
+class Copy:
+    """One of the builds. home: "" for the root of all files, else a folder made for it. other_user: as nobody."""
+
+    name: str
+    jobs: int
+    home: str
+    language: str
+    zone: str
+    umask: int
+    other_user: bool = False
+
+
+COPIES = (
+    Copy("a", 1, "", "C", "UTC", 0o022),
+    Copy(
+        "another-folder-with-a-longer-name", 4, "home/of-another", "sv_SE.UTF-8", "Asia/Tokyo", 0o077, other_user=True
+    ),
+)
 
 
 def verify(project: Project, names: tuple[str, ...] = ()) -> int:
     """Build twice and compare; prints the hash of every file. Returns the exit code: 1 where two files differ or a
     build failed."""
     with tempfile.TemporaryDirectory(prefix="loopbook-verify-") as folder:
+        os.chmod(folder, 0o755)  # for the other user
         hashes = []
-        for name, jobs in COPIES:
-            copy = Path(folder) / name
+        for one in COPIES:
+            copy = Path(folder) / one.name
             copy_sources(project, copy)
-            click.echo(f"building in {copy} with -j{jobs}")
-            code = _build(copy, jobs, names)
+            code = _build(copy, Path(folder), one, names)
             if code:
-                click.echo(f"loopbook verify: the build in {name} failed (exit code {code})")
+                click.echo(f"loopbook verify: the build in {one.name} failed (exit code {code})")
                 return 1
             hashes.append(hashes_of(copy / "reports"))
     return report(*hashes)
@@ -77,7 +102,44 @@ def report(first: dict[str, str], second: dict[str, str]) -> int:
     return 0
 
 
-def _build(copy: Path, jobs: int, names: tuple[str, ...]) -> int:
-    environment = {**os.environ, "PYTHONPATH": str(copy / "src"), **({PLAIN: "1"} if jobs == 1 else {})}
-    command = [sys.executable, "-m", "notebook_reports.cli", "--root", str(copy), "build", f"-j{jobs}", *names]
-    return subprocess.run(command, cwd=copy, env=environment, stdout=sys.stderr).returncode
+def _build(copy: Path, folder: Path, one: Copy, names: tuple[str, ...]) -> int:
+    """Build a copy as it says; the exit code."""
+    home = folder / one.home if one.home else Path("/")
+    temporary = folder / f"t{one.jobs}"
+    for made in (home, temporary):
+        made.mkdir(parents=True, exist_ok=True)
+    user = _other_user() if one.other_user else None
+    if user is not None:
+        for path in (*(p for p in folder.rglob("*") if p.is_relative_to(copy)), copy, home, temporary):
+            os.chown(path, user, user)
+    who = "another user" if user is not None else "the same user"
+    click.echo(f"building in {copy} with -j{one.jobs}, home {home}, {who}, {one.language}, umask {one.umask:03o}")
+    told = {"HOME": str(home), "LC_ALL": one.language, "LANGUAGE": one.language[:2], "TZ": one.zone}
+    environment = {**os.environ, **told, "TMPDIR": str(temporary), "PYTHONPATH": str(copy / "src")}
+    environment |= {PLAIN: "1"} if one.jobs == 1 else {}
+    press = [
+        sys.executable,
+        "-P",
+        "-m",
+        "notebook_reports.cli",
+        "--root",
+        str(copy),
+    ]
+    rights: dict[str, Any] = {} if user is None else {"user": user, "group": user, "extra_groups": []}
+    options: dict[str, Any] = {"cwd": copy, "env": environment, "umask": one.umask, "timeout": LIMIT, **rights}
+    return subprocess.run(
+        [*press, "build", f"-j{one.jobs}", *names], stdout=sys.stderr, check=False, **options
+    ).returncode
+
+
+def _other_user() -> int | None:
+    """The number of another user as whom this Python runs; None where there is none: not root, or it is not his to
+    read."""
+    if not hasattr(os, "geteuid") or os.geteuid() != 0:
+        return None
+    command = [sys.executable, "-P", "-c", "import click, nbformat"]
+    try:
+        done = subprocess.run(command, user=NOBODY, group=NOBODY, extra_groups=[], capture_output=True, cwd="/")
+    except OSError:
+        return None
+    return NOBODY if done.returncode == 0 else None

@@ -32,7 +32,7 @@ def watch(project: Project, names: tuple[str, ...], parameters: Any, wanted: Wan
         changed = wait_for_change(project, names, before)
         console.line(f"\nchanged: {_shown(project, changed)}")
         if any(_loaded(p) for p in changed):
-            os.execv(sys.executable, [sys.executable, "-m", "notebook_reports.cli", *sys.argv[1:]])
+            os.execv(sys.executable, [sys.executable, "-P", "-m", "notebook_reports.cli", *sys.argv[1:]])
 
 
 def _loaded(path: Path) -> bool:

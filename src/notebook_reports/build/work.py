@@ -3,14 +3,17 @@
 import math
 import os
 import signal
+import sys
 import threading
+from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from notebook_reports.build.job import Done, Job, Wanted, do, repeat
-from notebook_reports.project import atomic
+from notebook_reports.memory import kept_fonts
+from notebook_reports.project import atomic, limits, runtime
 from notebook_reports.project.console import Console
 from notebook_reports.project.failures import Failure, everything, summary
 from notebook_reports.project.project import Project
@@ -46,12 +49,13 @@ def _work(
     """
     if not work:
         return []
+    limits.check(min(jobs, len(work)))
     work = sorted(work, key=lambda j: j.notebook.id, reverse=True)
     work.sort(key=lambda j: -(j.stamp.seconds if j.stamp else math.inf))
     done: list[Done] = []
     with (
         _interruptible(),
-        _kernels(project, sum(bool(j.run_because) for j in work), ready),
+        _kernels(project, sum(bool(j.run_because) for j in work), console, ready),
         console.progress(len(work)),
         ThreadPoolExecutor(min(jobs, len(work))) as pool,
     ):
@@ -72,19 +76,27 @@ def _work(
 
 
 @contextmanager
-def _kernels(project: Project, number: int, ready: str = ""):
+def _kernels(project: Project, number: int, console: Console, ready: str = "") -> Iterator[Any]:
     """Import what runs notebooks, once, before the threads; meanwhile warm up what several kernels are forked from."""
     if not number:
         yield
         return
-    drop_stale_bytecode(project.root)
+    drop_stale_bytecode(project)
+    if told := kept_fonts.check(project.cache):
+        console.line(told)
     worth = number >= WORTH_WARMING and warm.possible()
-    warming = Warm(environment(project.root, project.cache), ready) if worth else None
-    import_nbformat()
-    from notebook_reports.run import kernels, run  # noqa: F401
+    warming = Warm(environment(project), ready) if worth else None
+    try:
+        import_nbformat()
+        from notebook_reports.run import kernels, run  # noqa: F401
 
-    with kernels.forked_from(warming):
-        yield
+        with kernels.forked_from(warming):
+            yield
+        kept_fonts.note(project.cache)
+    finally:
+        if warming is not None:
+            warming.close()  # also of a build that is interrupted before there is a kernel
+        runtime.tidy()
 
 
 def _result(future: Future, job: Job) -> Done:
@@ -98,15 +110,13 @@ def _result(future: Future, job: Job) -> Done:
 
 
 def _kill() -> None:
-    import sys
-
     kernels = sys.modules.get("notebook_reports.run.kernels")
     if kernels:
         kernels.kill_all()
 
 
 @contextmanager
-def _interruptible():
+def _interruptible() -> Iterator[None]:
     """SIGTERM ends a build as Ctrl-C does."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -122,17 +132,26 @@ def _interruptible():
         signal.signal(signal.SIGTERM, before)
 
 
-def _finish(project: Project, done: list[Done], failures: list[Failure], todo: list[Job], console: Console) -> Outcome:
+def _finish(
+    project: Project,
+    done: list[Done],
+    failures: list[Failure],
+    todo: list[Job],
+    console: Console,
+    again: Callable[[str], str] = str,
+) -> Outcome:
+    """Say how it ended. again: gives a command that repeats a failure the options that this build had."""
     idle = len(todo) - len(done)
     if idle > 0:
         console.line(f"{idle} notebook{'s' if idle > 1 else ''} up to date")
     console.warnings(done)
     path = project.cache / "failures.txt"
-    if failures:
-        atomic.write(path, everything(failures).encode())
+    told = [replace(f, repeat=again(f.repeat)) for f in failures]
+    if told:
+        atomic.write(path, everything(told).encode())
     else:
         atomic.remove(path)
-    for line in summary(failures):
+    for line in summary(told, path):
         console.line(line)
     environment = any(d.environment for d in done)
     return Outcome(ENVIRONMENT if environment else FAILED if failures else OK, done, failures)

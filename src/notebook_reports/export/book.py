@@ -33,7 +33,7 @@ class Chapter:
 
     name: "folder/notebook", as links call it. title: default its first top heading. part: chapters of the same part
     stand together. about: inline text below the title of the part that begins here. document: what its equation
-    anchors begin with. assets: where its relative images are.
+    anchors begin with. assets: where its relative images are; root: below which they have to lie.
     """
 
     name: str
@@ -43,6 +43,7 @@ class Chapter:
     about: str = ""
     document: str = ""
     assets: Path | None = None
+    root: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,7 @@ def _bind(
             document=chapter.document,
             language=language,
             folder=chapter.assets,
+            root=chapter.root,
             strict_alt=strict_alt,
         )
         bound.append(_Bound(report, str(number), chapter.part if chapter.part != part else "", chapter.about))

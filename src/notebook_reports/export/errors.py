@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from notebook_reports.errors import PressError
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -11,7 +13,7 @@ class Problem:
     text: str
 
 
-class ExportError(RuntimeError):
+class ExportError(PressError, RuntimeError):
     """A notebook cannot be exported without losing something.
 
     notebook: its name. cell: 1-based position of the first cell at fault, or None. problem: what is wrong there and
@@ -33,7 +35,7 @@ class ExportError(RuntimeError):
         super().__init__("\n".join(lines))
 
 
-class CannotShow(ValueError):
+class CannotShow(PressError, ValueError):
     """One piece of a cell has no form a report can show; the reader of the notebook adds the cell.
 
     The message says what is wrong and how to mend it, to the writer of the notebook. kind, reason, text, address: for

@@ -5,7 +5,22 @@ own reports are built so. ``mend``: in its place stands a numbered box that says
 alternative text or the address, and all of them are listed at the end. Nothing is left out without a word.
 """
 
-from notebook_reports.export.model import Mend, Report, walk
+import re
+
+from notebook_reports.export.model import (
+    Block,
+    Code,
+    Link,
+    Listing,
+    Math,
+    Mend,
+    Paragraph,
+    Picture,
+    Report,
+    ReportCell,
+    Text,
+    walk,
+)
 
 MODES = ("strict", "mend")
 
@@ -58,5 +73,35 @@ def lines(report: Report) -> list[str]:
 
 
 def boxed_cells(report: Report) -> set[int]:
-    """The cells in which something is missing; remarks do not count."""
-    return {cell for cell, mend in report.mends if not mend.remark}
+    """The cells that are boxes: something in them is missing, and nothing else of them is shown, their code apart.
+
+    Text that stands in for an output, such as ``<Figure size 640x480>``, is not what was to be shown.
+    """
+    return {cell.number for cell in report.cells if _is_box(cell)}
+
+
+def _is_box(cell: ReportCell) -> bool:
+    missing = any(isinstance(node, Mend) and not node.remark for node in walk(cell))
+    blocks = [b for b in cell.blocks if not isinstance(b, Listing) or b.role not in ("input", "code")]
+    shown = [b for b in blocks if not isinstance(b, Mend) and not (isinstance(b, Listing) and _stand_in(b.text))]
+    return missing and not any(_says_something(block) for block in shown)
+
+
+def _stand_in(text: str) -> bool:
+    return bool(re.fullmatch(r"\s*<[\w.]+( object)?( [^<>]*)?>\s*|\s*\w+\([^\n]*\)\s*", text)) or not text.strip()
+
+
+def _worded(link: Link) -> bool:
+    """Does a link that leads somewhere say where, if only by the words of a picture that is not there?"""
+    return any(isinstance(node, Mend) and node.text.strip() for node in walk(link))
+
+
+def _says_something(block: Block) -> bool:
+    """Is there a word, a formula or a picture in the block besides its mends?"""
+    inside = [node for node in walk(block) if not isinstance(node, Mend)]
+    if any(isinstance(node, Link) and node.kind != "nowhere" and _worded(node) for node in inside):
+        return True
+    return not isinstance(block, Paragraph) or any(
+        (isinstance(node, Text | Code) and re.search(r"\w", node.text)) or isinstance(node, Math | Picture)
+        for node in inside
+    )

@@ -4,9 +4,11 @@ A notebook is read once into these blocks (`report.read`); the PDF and the HTML 
 stays LaTeX here, pictures are bytes, text is plain characters: nothing is markup.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
+
+from notebook_reports.export.formulas import as_text
 
 
 @dataclass
@@ -242,22 +244,41 @@ class Figure:
     number: str = ""
 
 
-Block = Heading | Paragraph | Display | Listing | Bullets | Definitions | Quote | Alert | Rule | Grid | Figure | Mend
+@dataclass
+class Live:
+    """Data that a script shows on the screen, see `scripts`. script, markup: an installed package's own. instead: the
+    blocks that stand for it where nothing runs."""
+
+    mime: str
+    data: Any
+    script: str
+    markup: str
+    instead: list["Block"] = field(default_factory=list)
+
+
+Block = (
+    Heading | Paragraph | Display | Listing | Bullets | Definitions | Quote | Alert | Rule | Grid | Figure | Mend | Live
+)
 
 
 @dataclass
 class ReportCell:
-    """The blocks of one cell. number: its 1-based position in the notebook. anchor: "cell-7" for a code cell."""
+    """The blocks of one cell. number: its 1-based position in the notebook. anchor: "cell-7" for a code cell.
+
+    new_page: a page begins with it.
+    """
 
     number: int
     blocks: list[Block]
     anchor: str = ""
+    new_page: bool = False
 
 
 @dataclass
 class Report:
-    """A notebook, read. name: as errors call it, for example "double_tank/03_pole_placement". mends: what stands for
-    something that cannot be shown, in reading order, with the number of its cell. aliases: other names of anchors."""
+    """A notebook, read. name: as errors call it, for example "double_tank/03_pole_placement". mended: not strictly;
+    mends: what stands for something that cannot be shown, in reading order, with the number of its cell. aliases: other
+    names of anchors. contents: may it have a table of contents?"""
 
     name: str
     title: list[Inline]
@@ -268,6 +289,8 @@ class Report:
     language: str = "en"
     author: str = ""
     anchors: set[str] = field(default_factory=set)
+    mended: bool = False
+    contents: bool = True
     aliases: dict[str, str] = field(default_factory=dict)
     mends: list[tuple[int, Mend]] = field(default_factory=list)
 
@@ -299,10 +322,12 @@ def children(node: Any) -> list[Any]:
             return [*node.caption, *node.cells, *(part for note in node.notes for part in note)]
         case Figure():
             return [node.picture, *node.caption]
+        case Live():
+            return node.instead
     return []
 
 
-def walk(node: Any):
+def walk(node: Any) -> Iterator[Any]:
     """Every node below, in reading order."""
     for child in children(node):
         yield child
@@ -376,13 +401,11 @@ def plain(nodes: list[Inline], math: str = "latex") -> str:
             case Math(latex) if math == "latex":
                 parts.append(f"${latex}$")
             case Math(latex):
-                from notebook_reports.export.formulas import as_text
-
                 parts.append(as_text(latex))
             case Styled() | Coloured() | Link():
                 parts.append(plain(node.children, math))
-            case Mend(text=text):
-                parts.append(text)
+            case Mend():
+                parts.append(" ".join(part for part in (node.text, node.reason, node.address) if part))
             case Break():
                 parts.append(" ")
             case Picture():

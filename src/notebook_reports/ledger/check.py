@@ -1,6 +1,7 @@
 """`loopbook check`: the ledger as it stands in reports/, in a terminal or as data."""
 
 import csv
+import difflib
 import io
 import json
 import shutil
@@ -10,13 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from notebook_reports.ledger import files as ledger_files
+from notebook_reports.ledger.row import TABLES, LedgerRow, of_table
 from notebook_reports.ledger.verdicts import (
     CLAIM_VERDICTS,
-    FAILING,
     GIVEN,
     HOLDS,
     MISPRINT_VERDICTS,
+    QUOTED,
     READ,
+    REPEATED,
     REPRODUCED,
     ROUNDED,
     VALUE_VERDICTS,
@@ -24,30 +27,27 @@ from notebook_reports.ledger.verdicts import (
 from notebook_reports.project.project import Project, UsageError
 
 ORDER = {"value": VALUE_VERDICTS, "claim": CLAIM_VERDICTS, "misprint": MISPRINT_VERDICTS}
-GOOD = {GIVEN, REPRODUCED, ROUNDED, READ, HOLDS}
-Row = dict[str, str]
+GOOD = {GIVEN, REPEATED, REPRODUCED, ROUNDED, QUOTED, READ, HOLDS}
 
 
 @dataclass(frozen=True)
 class Ledger:
-    """The rows of the three files, each with its table's name under ``table``, in the order of the files."""
+    """The rows of the three files, in their order."""
 
-    rows: list[Row]
+    rows: list[LedgerRow]
 
     @property
-    def failing(self) -> list[Row]:
-        return [r for r in self.rows if r["verdict"] in FAILING]
+    def failing(self) -> list[LedgerRow]:
+        return [r for r in self.rows if r.fails]
 
     def of(self, document: str = "", place: str = "") -> "Ledger":
         """The rows of one document, or of one place in it. Raises UsageError where there is none."""
-        import difflib
-
         rows = self.rows
         for key, wanted in (("document", document), ("place", place)):
             if not wanted:
                 continue
-            known = list(dict.fromkeys(r[key] for r in rows))
-            rows = [r for r in rows if r[key].casefold() == wanted.casefold()]
+            known = list(dict.fromkeys(getattr(r, key) for r in rows))
+            rows = [r for r in rows if getattr(r, key).casefold() == wanted.casefold()]
             if not rows:
                 near = difflib.get_close_matches(wanted, known, n=4, cutoff=0.4) or known[:6]
                 raise UsageError(f"the ledger has no {key} {wanted!r}; there is {', '.join(near)}")
@@ -58,7 +58,7 @@ def read_ledger(project: Project) -> Ledger:
     """Read reports/*.csv. Raises UsageError where there is no ledger yet."""
     rows = []
     for table, name in ledger_files.FILES.items():
-        rows += [{"table": table, **r} for r in ledger_files.read(project.reports / name)]
+        rows += ledger_files.read(project.reports / name, table)
     if not rows:
         raise UsageError(f"no ledger in {project.reports}; `loopbook build` writes it")
     return Ledger(rows)
@@ -73,23 +73,24 @@ def as_text(ledger: Ledger, whole: bool, width: int | None = None) -> str:
         width = shutil.get_terminal_size((120, 24)).columns
     lines = summary_lines(ledger)
     if whole:
-        values = [r for r in ledger.rows if r["table"] == "value"]
-        others = [_row_line(r) for r in ledger.rows if r["table"] != "value"]
+        values = of_table(ledger.rows, "value")
+        others = [_row_line(r) for r in ledger.rows if r.table != "value"]
         for block in (_table(values) if values else [], others):
             lines += ["", *block] if block else []
-    elif shown := [r for r in ledger.rows if r["verdict"] not in GOOD]:
+    elif shown := [r for r in ledger.rows if r.verdict not in GOOD]:
         lines += ["", "every row that is not reproduced, or does not hold:"]
         lines += [_row_line(r) for r in shown]
     return "\n".join(line[:width].rstrip() for line in lines)
 
 
-def _table(rows: Sequence[Row]) -> list[str]:
+def _table(rows: Sequence[LedgerRow]) -> list[str]:
     """Values in columns; one that no row fills is left out."""
-    heads = ["quantity", "printed", "exact", "from rounded inputs", "verdict", "why"]
+    heads = ["quantity", "printed", "exact", "from rounded inputs", "source", "first print", "verdict", "why"]
     cells = [
-        [r["quantity"], f"{r['printed']} {r['unit']}".rstrip(), _short(r["exact"]), _short(r["from_inputs"])]
-        + [r["verdict"], r["reason"]]
-        for r in rows
+        [c["quantity"], f"{c['printed']} {c['unit']}".rstrip()]
+        + [_short(c[name]) for name in ledger_files.NUMBERS]
+        + [c["verdict"], c["reason"]]
+        for c in (row.columns() for row in rows)
     ]
     columns = [c for c in zip(heads, *cells, strict=True) if any(c[1:])]
     widths = [max(map(len, column)) for column in columns]
@@ -98,8 +99,8 @@ def _table(rows: Sequence[Row]) -> list[str]:
 
 def summary_lines(ledger: Ledger) -> list[str]:
     """Numbers by document and verdict."""
-    documents = list(dict.fromkeys(r["document"] for r in ledger.rows))
-    counts = Counter((r["table"], r["verdict"], r["document"]) for r in ledger.rows)
+    documents = list(dict.fromkeys(r.document for r in ledger.rows))
+    counts = Counter((r.table, r.verdict, r.document) for r in ledger.rows)
     heads = [*documents, "all"] if len(documents) > 1 else documents
     lines = [f"{'':32}" + "".join(f"{h:>14}" for h in heads)]
     for table, verdicts in ORDER.items():
@@ -111,17 +112,17 @@ def summary_lines(ledger: Ledger) -> list[str]:
     return lines
 
 
-def _row_line(row: Row) -> str:
-    where = f"{row['document']}, {row['place']}"
-    if row["table"] == "value":
-        what = f"{row['quantity']} = {row['printed']} {row['unit']}".rstrip()
-        got = f"; computed {_short(row['exact'])}" if row["exact"] else ""
-        got += f"; from rounded inputs {_short(row['from_inputs'])}" if row["from_inputs"] else ""
-        why = f": {row['reason']}" if row["reason"] else ""
-        return f"{row['verdict']:19} {where}: {what}{got}{why}"
-    if row["table"] == "claim":
-        return f"{row['verdict']:19} {where}: {row['says']}: {row['evidence']}"
-    return f"{'misprint':19} {where}: {row['printed']} -> {row['corrected']}: {row['note']}"
+def _row_line(row: LedgerRow) -> str:
+    where, c = f"{row.document}, {row.place}", row.columns()
+    if row.table == "value":
+        what = f"{c['quantity']} = {c['printed']} {c['unit']}".rstrip()
+        got = f"; computed {_short(c['exact'])}" if c["exact"] else ""
+        got += f"; from rounded inputs {_short(c['from_inputs'])}" if c["from_inputs"] else ""
+        why = f": {c['reason']}" if c["reason"] else ""
+        return f"{row.verdict:19} {where}: {what}{got}{why}"
+    if row.table == "claim":
+        return f"{row.verdict:19} {where}: {c['says']}: {c['evidence']}"
+    return f"{'misprint, ' + row.verdict:19} {where}: {c['printed']} -> {c['corrected']}: {c['note']}"
 
 
 def _short(number: str) -> str:
@@ -133,31 +134,30 @@ def _short(number: str) -> str:
 
 def as_json(ledger: Ledger) -> str:
     """All rows, each with its table."""
-    return json.dumps(ledger.rows, ensure_ascii=False, indent=1)
+    return json.dumps(_with_table(ledger.rows), ensure_ascii=False, indent=1)
 
 
 def as_csv(ledger: Ledger) -> str:
     """All rows under the columns of the tables they come from."""
-    columns = _columns(ledger.rows)
+    rows = _with_table(ledger.rows)
     out = io.StringIO()
-    writer = csv.DictWriter(out, columns, lineterminator="\n", restval="")
+    writer = csv.DictWriter(out, list(dict.fromkeys(k for row in rows for k in row)), lineterminator="\n", restval="")
     writer.writeheader()
-    writer.writerows(ledger.rows)
+    writer.writerows(rows)
     return out.getvalue().rstrip("\n")
 
 
 def as_markdown(ledger: Ledger) -> str:
     """One table for each kind of entry."""
     blocks = []
-    for table in ORDER:
-        rows = [r for r in ledger.rows if r["table"] == table]
+    for table in TABLES:
+        rows = [row.columns() for row in of_table(ledger.rows, table)]
         if rows:
-            columns = [c for c in _columns(rows) if c != "table"]
-            head = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
-            body = ["| " + " | ".join(r[c].replace("|", "\\|") for c in columns) + " |" for r in rows]
+            head = ["| " + " | ".join(rows[0]) + " |", "|" + "---|" * len(rows[0])]
+            body = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row.values()) + " |" for row in rows]
             blocks.append("\n".join([*head, *body]))
     return "\n\n".join(blocks)
 
 
-def _columns(rows: Sequence[Row]) -> list[str]:
-    return list(dict.fromkeys(key for row in rows for key in row))
+def _with_table(rows: Sequence[LedgerRow]) -> list[dict[str, str]]:
+    return [{"table": row.table, **row.columns()} for row in rows]

@@ -9,14 +9,13 @@ Pure data: the printed documents and the harvested records in, numbers out.
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 from notebook_reports.ledger.files import natural
 from notebook_reports.ledger.printed_data import PrintedDocument
+from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.ledger.verdicts import CLAIM_VERDICTS, MISPRINT_VERDICTS, VALUE_VERDICTS
 
 VERDICTS = {"value": VALUE_VERDICTS, "claim": CLAIM_VERDICTS, "misprint": MISPRINT_VERDICTS}
-TABLES = tuple(VERDICTS)
 
 
 @dataclass(frozen=True)
@@ -38,10 +37,10 @@ class Count:
         return [(v, self.verdicts[table, v]) for v in VERDICTS[table] if self.verdicts.get((table, v))]
 
 
-def coverage(documents: Iterable[PrintedDocument], records: Iterable[Mapping[str, Any]]) -> list[Count]:
+def coverage(documents: Iterable[PrintedDocument], rows: Iterable[LedgerRow]) -> list[Count]:
     """One count for each place of each document, documents as they come, places as a person counts.
 
-    records: with table, document, place, id and verdict. A record of what no document prints is counted at its place.
+    A row of what no document prints is counted at its place.
     """
     printed: dict[tuple[str, str], Counter] = {}
     verdicts: dict[tuple[str, str], Counter] = {}
@@ -49,15 +48,15 @@ def coverage(documents: Iterable[PrintedDocument], records: Iterable[Mapping[str
     order = []
     for document in documents:
         order.append(document.id)
-        for table, items in zip(TABLES, (document.values, document.claims, document.misprints), strict=True):
+        for table, items in document.tables().items():
             for id, item in items.items():
                 where = (document.id, item.place)
                 printed.setdefault(where, Counter())[table] += 1
                 open_.setdefault(where, {})[table, document.id, id] = None
-    for record in records:
-        where = (record["document"], record["place"])
-        verdicts.setdefault(where, Counter())[record["table"], record["verdict"]] += 1
-        open_.get(where, {}).pop((record["table"], record["document"], record["id"]), None)
+    for row in rows:
+        where = (row.document, row.place)
+        verdicts.setdefault(where, Counter())[row.table, row.verdict] += 1
+        open_.get(where, {}).pop(row.key, None)
     order += sorted({document for document, _ in verdicts} - set(order))
     places = sorted({**printed, **verdicts}, key=lambda w: (order.index(w[0]), natural(w[1])))
     return [

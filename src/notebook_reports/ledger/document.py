@@ -5,63 +5,56 @@ facts, as records, in its output (`CHECKS_MIME`). The pipeline harvests those re
 
     tank = Document(load("double-tank", folder))
     tank.check("Table 5", exact={"rise-q0.3": 3.66348...}, from_inputs={...})
-    tank.claim("no-overshoot", {"$q = 0.3$": overshoot < 1e-9}, evidence="largest overshoot 0.0 %")
+    limit = tank.said("no-overshoot").number("most")
+    tank.claim("no-overshoot", {"$q = 0.3$": overshoot < limit}, evidence=f"largest overshoot {overshoot} %")
     tank.misprint("eq-4.17", derived_expression)
 
 Verdicts of a value, computed in this order:
 
-given                 the document states it as an input and nothing here computes it
+given                 the document states it as an input, and nothing else in it or here determines it
 reproduced            `exact` rounds to the printed digits
 from rounded inputs   `from_inputs` rounds to the printed digits and `exact` does not
+quoted                a constant that is not derived here: it agrees with the source that the data names
+repeated              printed before (`same_as`): both prints agree
 read                  the document read it off a graph; `exact` lies within the stated reading width
-misprint              neither rounds to the print, and `exact` or `from_inputs` rounds to the corrected digits
-differs               neither, and the data gives a reason; where the reason was computed (`explained`, the number that
-                      follows from it), that number rounds to the print
-unexplained           neither, without a reason that holds: this fails a build
+misprint              none rounds to the print, and one of them rounds to the corrected digits
+differs               none does, and the data gives a reason that is borne out: the number that follows from it
+                      (`explained`) rounds to the print, or `exact` lies in the interval (`between`) of its source
+unexplained           none of these: this fails a build
+
+A misprint is *proved* (by a derivation, a dimension, a run of the printed program, a resolved reference) or *noted*.
 """
 
 import difflib
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
-from decimal import Decimal
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from notebook_reports.display import Table, number
+from notebook_reports.display import Table
+from notebook_reports.errors import PressError
+from notebook_reports.formula.read import Symbols, read_formula
 from notebook_reports.ledger import printed_data
+from notebook_reports.ledger.compared import Compared, computed_table, verdict_table
+from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.ledger.verdicts import (
     CHECKS_MIME,
     CLAIM_VERDICTS,
-    CONFIRMED,
-    DIFFERS,
-    FAILING,
     MARKS,
-    MISPRINT,
     MISPRINT_VERDICTS,
-    NOT_CONFIRMED,
+    NOTED,
     PARTLY,
-    READ,
     VALUE_VERDICTS,
-    Record,
-    _exact,
+    Computed,
+    Truth,
     claim_verdict,
-    value_verdict,
+    misprint_verdict,
 )
 
 
-class LedgerError(ValueError):
+class LedgerError(PressError, ValueError):
     """A check was asked for something the printed data does not hold, or left something of it out."""
-
-
-def _full(value: Any) -> str:
-    """A computed number at full precision, the same text on every run."""
-    value = _exact(value)
-    if value is None:
-        return ""
-    if value.denominator == 1 and abs(value) < 10**15:
-        return str(value.numerator)
-    return repr(float(value))
 
 
 @dataclass(frozen=True)
@@ -69,11 +62,11 @@ class Checked:
     """The outcome of one call: a table to read and the records behind it. ``ok`` is False where one fails."""
 
     view: Table
-    records: tuple[Record, ...]
+    records: tuple[LedgerRow, ...]
 
     @property
     def ok(self) -> bool:
-        return not any(r.verdict in FAILING for r in self.records)
+        return not any(r.fails for r in self.records)
 
     def verdicts(self) -> dict[str, str]:
         """The verdict by id."""
@@ -81,10 +74,10 @@ class Checked:
 
     def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
         bundle = self.view._repr_mimebundle_(**kwargs)
-        return {**bundle, CHECKS_MIME: [asdict(r) for r in self.records]} if self.records else bundle
+        return {**bundle, CHECKS_MIME: [r.carried() for r in self.records]} if self.records else bundle
 
 
-def _near(name: str, known) -> str:
+def _near(name: str, known: Iterable[str]) -> str:
     close = difflib.get_close_matches(name, list(known), n=3, cutoff=0.5)
     return f"; did you mean {' or '.join(close)}?" if close else ""
 
@@ -109,7 +102,7 @@ class Document:
         self.id = printed.id
         self.compare = compare
         self._same = same
-        self._records: list[Record] = []
+        self._records: list[LedgerRow] = []
 
     def _at(self, place: str) -> dict[str, printed_data.Value]:
         found = {i: v for i, v in self.printed.values.items() if v.place == place}
@@ -128,82 +121,72 @@ class Document:
             raise LedgerError(f"{self.id} has no printed value {id!r}{_near(id, self.printed.values)}")
         return self.printed.values[id].fraction
 
+    def said(self, id: str) -> printed_data.Claim:
+        """One statement with its fields, for its test to read."""
+        if id not in self.printed.claims:
+            raise LedgerError(f"{self.id} has no claim {id!r}{_near(id, self.printed.claims)}")
+        return self.printed.claims[id]
+
     def check(
         self,
         place: str,
         exact: Mapping[str, Any] | None = None,
         from_inputs: Mapping[str, Any] | None = None,
         explained: Mapping[str, Any] | None = None,
+        quoted: Mapping[str, Any] | None = None,
         caption: str = "",
-        only: tuple[str, ...] = (),
+        only: Sequence[str] = (),
     ) -> Checked:
         """Compare every number printed at one place with what was computed.
 
         exact: by id, from first principles at full precision. from_inputs: by id, the document's own chain of
         arithmetic from its own rounded numbers. explained: by id, the number that follows from the reason the data
-        gives for a difference. only: check just these ids (a place may be spread over notebooks).
-        Raises LedgerError for an id the place does not have, and for one of kind other than ``given`` without a value.
+        gives for a difference. quoted: by id, a constant as the source has it that the data names; it is not derived.
+        only: check just these ids (a place may be spread over notebooks).
+        What repeats an earlier print (`same_as`) is checked against it and needs nothing.
+        Raises LedgerError for an id the place does not have, for one of kind other than ``given`` without a value, and
+        for a quoted one without a source.
         """
-        exact, from_inputs, explained = dict(exact or {}), dict(from_inputs or {}), dict(explained or {})
-        values = self._at(place)
-        for id in (*exact, *from_inputs, *explained, *only):
-            if id not in values:
-                raise LedgerError(f"{self.id}, {place}: no printed value {id!r}{_near(id, values)}")
-        if only:
-            values = {i: v for i, v in values.items() if i in only}
-        missing = [i for i, v in values.items() if v.kind != "given" and i not in exact and i not in from_inputs]
+        by = {"exact": exact, "from_inputs": from_inputs, "explained": explained, "quoted": quoted}
+        numbers = {name: given or {} for name, given in by.items()}
+        values = self._asked(place, [i for given in numbers.values() for i in given], only)
+        sourceless = [i for i in numbers["quoted"] if not values[i].source]
+        if sourceless:
+            raise LedgerError(f"{self.id}, {place}: no source in the data for {', '.join(sourceless)}")
+        compared = [
+            self._compared(v, {name: given.get(i) for name, given in numbers.items()}) for i, v in values.items()
+        ]
+        missing = [c.value.id for c in compared if c.value.kind != "given" and all(x is None for x in c.found.numbers)]
         if missing and self.compare:
             raise LedgerError(f"{self.id}, {place}: nothing computed for {', '.join(missing)}")
-        rows, marks, notes, records = [], [], [], []
-        for id, value in values.items():
-            a, b = exact.get(id), from_inputs.get(id)
-            shown = [_beside(x, value.printed) for x in (a, b)]
-            if not self.compare:
-                if any(shown):
-                    rows.append([value.quantity, *shown, value.unit])
-                continue
-            verdict = value_verdict(value, a, b, explained.get(id))
-            explain = value.reason if verdict in (READ, MISPRINT, DIFFERS) else ""
-            if explain:
-                notes.append(f"{value.quantity}: {explain}")
-            rows.append([value.quantity, _grouped(value.printed), *shown, value.unit, verdict])
-            marks.append(MARKS[verdict])
-            fields = {
-                "quantity": value.quantity,
-                "printed": value.printed,
-                "unit": value.unit,
-                "kind": value.kind,
-                "exact": _full(a),
-                "from_inputs": _full(b),
-                "reason": explain,
-            }
-            records.append(Record("value", self.id, value.place, id, verdict, fields))
-        heads = ["quantity", "printed", "exact", "from inputs", "unit", "verdict"]
-        long = any(" " in cell for row in rows for cell in row[1:4])  # digits in groups: let them wrap
-        align = ["left", *["left" if long else "right"] * 3, "left", "left"]
-        if not self.compare:
-            del heads[1], heads[-1], align[1], align[-1]
-        for empty in ("from inputs", "exact", "unit"):
-            column = heads.index(empty)
-            if not any(row[column] for row in rows):
-                for row in (heads, align, *rows):
-                    del row[column]
         caption = caption or f"{self.id}, {place}: printed and computed"
-        return self._checked(Table(heads, rows, caption, align, notes, marks), records)
+        if not self.compare:
+            return self._checked(computed_table(compared, caption), [])
+        return self._checked(verdict_table(compared, caption), [c.row() for c in compared])
 
-    def claim(self, id: str, parts: Mapping[str, bool] | bool, evidence: str) -> Checked:
+    def _compared(self, value: printed_data.Value, numbers: Mapping[str, Any]) -> Compared:
+        first = self.printed.values[value.same_as] if value.same_as else None
+        return Compared(value, Computed(first=first.fraction if first else None, **numbers), first)
+
+    def _asked(self, place: str, named: Iterable[str], only: Sequence[str]) -> dict[str, printed_data.Value]:
+        """The values of a place that a check is asked for; every id that it names must be printed there."""
+        values = self._at(place)
+        for id in (*named, *only):
+            if id not in values:
+                raise LedgerError(f"{self.id}, {place}: no printed value {id!r}{_near(id, values)}")
+        return {i: v for i, v in values.items() if not only or i in only}
+
+    def claim(self, id: str, parts: Mapping[str, Truth] | Truth, evidence: str) -> Checked:
         """Test one statement: each part is a computed truth value with its name; evidence states the numbers."""
         return self.claims({id: (parts, evidence)})
 
-    def claims(self, tested: Mapping[str, tuple[Mapping[str, bool] | bool, str]], caption: str = "") -> Checked:
+    def claims(self, tested: Mapping[str, tuple[Mapping[str, Truth] | Truth, str]], caption: str = "") -> Checked:
         """Test several statements: by id, (parts, evidence). One table, one row per statement."""
         rows, marks, records = [], [], []
         for id, (parts, evidence) in tested.items():
-            if id not in self.printed.claims:
-                raise LedgerError(f"{self.id} has no claim {id!r}{_near(id, self.printed.claims)}")
+            claim = self.said(id)
             if not evidence.strip():
                 raise LedgerError(f"{self.id}, claim {id}: give the numbers that show it as evidence")
-            claim = self.printed.claims[id]
             parts = dict(parts) if isinstance(parts, Mapping) else {"": bool(parts)}
             verdict = claim_verdict(parts)
             failed = [name for name, outcome in parts.items() if name and not outcome]
@@ -212,7 +195,7 @@ class Document:
             rows.append([claim.place, claim.says, evidence, *([verdict] if self.compare else [])])
             marks.append(MARKS[verdict] if self.compare else "")
             fields = {"says": claim.says, "evidence": evidence}
-            records.append(Record("claim", self.id, claim.place, id, verdict, fields))
+            records.append(LedgerRow("claim", self.id, claim.place, id, verdict, fields))
         heads = ["place", "the document says", "computed", "verdict"]
         caption = caption or f"{self.id}: statements tested"
         if not self.compare:
@@ -226,35 +209,60 @@ class Document:
     def misprints(self, found: Mapping[str, Any], caption: str = "") -> Checked:
         """Record misprints, each with its proof, by id. What is not confirmed fails a build.
 
-        Where the data holds the formulas as SymPy text, the proof is the derived expression: confirmed where it
-        equals the corrected formula and not the printed one (symbols are matched by name). Otherwise the proof is a
-        computed truth value that says the print is wrong.
+        Where the data holds the formulas as text, the proof is the derived expression: proved where it
+        equals the corrected formula and not the printed one (symbols are matched by name). Otherwise the proof is two
+        computed truth values: (does what is printed hold, does the correction hold), and proved is (False, True); or
+        one, which says that the print is wrong. Raises LedgerError where the data calls the misprint only noted.
         """
+        for id in found:
+            if id in self.printed.misprints and not self.printed.misprints[id].proof:
+                raise LedgerError(f"{self.id}, misprint {id}: the data names no proof; use noted(), or say which it is")
+        return self._misprints({id: self._proved(id, proof) for id, proof in found.items()}, caption)
+
+    def noted(self, *ids: str, caption: str = "") -> Checked:
+        """Record misprints that nothing computes: slips of spelling, labels. Raises LedgerError where the data names a
+        proof."""
+        for id in ids:
+            if id in self.printed.misprints and self.printed.misprints[id].proof:
+                raise LedgerError(
+                    f"{self.id}, misprint {id}: the data says it is proved; give the proof to misprints()"
+                )
+        return self._misprints(dict.fromkeys(ids, NOTED), caption)
+
+    def _proved(self, id: str, proof: Any) -> str:
+        item = self.printed.misprints.get(id)
+        if item and item.printed_expr:
+            return misprint_verdict(False, _proves(item, proof, self._same))
+        holds, mended = proof if isinstance(proof, tuple) else (not proof, proof)
+        return misprint_verdict(holds, mended)
+
+    def _misprints(self, found: Mapping[str, str], caption: str) -> Checked:
         rows, marks, records = [], [], []
-        for id, proof in found.items():
+        for id, verdict in found.items():
             if id not in self.printed.misprints:
                 raise LedgerError(f"{self.id} has no misprint {id!r}{_near(id, self.printed.misprints)}")
             item = self.printed.misprints[id]
-            wrong = _proves(item, proof, self._same) if item.printed_expr else bool(proof)
-            verdict = CONFIRMED if wrong else NOT_CONFIRMED
             misleads = "yes" if item.misleads else "no"
-            rows.append([item.place, f"`{item.printed}`", f"`{item.corrected}`", item.note, misleads])
+            rows.append(
+                [item.place, f"`{item.printed}`", f"`{item.corrected}`", item.note, misleads, item.proof or NOTED]
+            )
             marks.append(MARKS[verdict])
             fields = {
                 "kind": item.kind,
                 "printed": item.printed,
                 "corrected": item.corrected,
                 "misleads": misleads,
+                "proof": item.proof,
                 "note": item.note,
             }
-            records.append(Record("misprint", self.id, item.place, id, verdict, fields))
-        heads = ["place", "printed", "correct", "what is wrong", "misleads"]
+            records.append(LedgerRow("misprint", self.id, item.place, id, verdict, fields))
+        heads = ["place", "printed", "correct", "what is wrong", "misleads", "proof"]
         caption = caption or f"{self.id}: misprints"
         if not self.compare:
             records, marks = [], []
-        return self._checked(Table(heads, rows, caption, ["left"] * 5, (), marks), records)
+        return self._checked(Table(heads, rows, caption, ["left"] * 6, (), marks), records)
 
-    def _checked(self, view: Table, records: list[Record]) -> Checked:
+    def _checked(self, view: Table, records: list[LedgerRow]) -> Checked:
         self._records.extend(records)
         return Checked(view, tuple(records))
 
@@ -274,40 +282,10 @@ class Document:
         return Table(["entry", "verdict", "number"], rows, f"{self.id}: the checks of this notebook", (), (), marks)
 
 
-def _beside(value: Any, digits: str) -> str:
-    """A computed number as it stands beside a print; an integer that no float can hold in full."""
-    value = _exact(value)
-    if value is None:
-        return ""
-    if value.denominator == 1 and abs(value) >= 10**17:
-        return _grouped(str(value.numerator))
-    return number(value, _digits_shown(digits))
-
-
-def _grouped(digits: str) -> str:
-    """More than 17 digits in a row in groups of ten, so that they can be compared and may wrap.
-
-    >>> _grouped("-2361183241434822606848"), _grouped("8360")
-    ('−2361183241 4348226068 48', '8360')
-    """
-    sign, row = ("−", digits[1:]) if digits.startswith("-") else ("", digits)
-    if len(row) <= 17 or not row.isdigit():
-        return digits
-    return sign + " ".join(row[i : i + 10] for i in range(0, len(row), 10))
-
-
-def _digits_shown(digits: str) -> int:
-    """Significant digits for the computed value beside a print: two more than printed, at least four."""
-    return max(4, len(Decimal(digits).as_tuple().digits) + 2)
-
-
 def _proves(item: printed_data.Misprint, derived: Any, same: Same) -> bool:
-    import sympy
+    names = Symbols({symbol.name: symbol for symbol in derived.free_symbols})
 
-    names = {symbol.name: symbol for symbol in derived.free_symbols}
+    def equal(key: str) -> bool:
+        return same(read_formula(getattr(item, key), names, where=f"{item.where}, {key}"), derived)
 
-    def equal(text: str) -> bool:
-        read = sympy.sympify(text, locals=names, rational=True)
-        return same(read.subs({s: names.get(s.name, s) for s in read.free_symbols}), derived)
-
-    return not equal(item.printed_expr) and equal(item.corrected_expr)
+    return not equal("printed_expr") and equal("corrected_expr")

@@ -8,35 +8,16 @@ A computed number that differs by less than one part in 10^9 is the same number 
 import csv
 import io
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from notebook_reports.ledger.harvest import Found
+from notebook_reports.ledger.row import COLUMNS, LedgerRow, from_columns
 
 FILES = {"value": "ledger.csv", "claim": "claims.csv", "misprint": "misprints.csv"}
-COLUMNS = {
-    "value": [
-        "document",
-        "place",
-        "id",
-        "quantity",
-        "printed",
-        "unit",
-        "kind",
-        "exact",
-        "from_inputs",
-        "verdict",
-        "reason",
-        "notebook",
-    ],
-    "claim": ["document", "place", "id", "says", "verdict", "evidence", "notebook"],
-    "misprint": ["document", "place", "id", "kind", "printed", "corrected", "misleads", "verdict", "note", "notebook"],
-}
 GUARDED = ("printed", "verdict")
-NUMBERS = ("exact", "from_inputs")
+NUMBERS = ("exact", "from_inputs", "quoted", "first")
 SAME = 1e-9
-Row = dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -44,83 +25,69 @@ class Change:
     """One row that is not as the file has it. moved: it needs acceptance."""
 
     table: str
-    row: Row
+    row: LedgerRow
     what: str
     moved: bool
 
     @property
     def line(self) -> str:
-        return f"{self.row['document']}, {self.row['place']}, {self.row['id']}: {self.what}"
+        return f"{self.row.document}, {self.row.place}, {self.row.id}: {self.what}"
 
 
-def rows(found: Iterable[Found], table: str) -> list[Row]:
-    """The rows of one file, sorted."""
-    made = []
-    for record in found:
-        if record.table == table:
-            own = {k: getattr(record, k) for k in ("document", "place", "id", "verdict", "notebook")}
-            made.append({k: _one_line(str({**record.fields, **own}.get(k, ""))) for k in COLUMNS[table]})
-    return sorted(made, key=_order)
-
-
-def read(path: Path) -> list[Row]:
+def read(path: Path, table: str) -> list[LedgerRow]:
     """The rows of a file; none where there is no file."""
     if not path.exists():
         return []
     with path.open(encoding="utf-8", newline="") as file:
-        return [{k: v or "" for k, v in row.items()} for row in csv.DictReader(file)]
+        return [from_columns(table, {k: v or "" for k, v in row.items()}) for row in csv.DictReader(file)]
 
 
-def render(table: str, content: Iterable[Row]) -> bytes:
+def render(table: str, content: Iterable[LedgerRow]) -> bytes:
     """The bytes of a file."""
     out = io.StringIO()
-    writer = csv.DictWriter(out, COLUMNS[table], lineterminator="\n", extrasaction="ignore")
+    writer = csv.DictWriter(out, COLUMNS[table], lineterminator="\n")
     writer.writeheader()
-    writer.writerows(content)
+    writer.writerows(row.columns() for row in content)
     return out.getvalue().encode()
 
 
-def compare(table: str, old: list[Row], new: list[Row]) -> tuple[list[Row], list[Change]]:
+def compare(table: str, old: list[LedgerRow], new: list[LedgerRow]) -> tuple[list[LedgerRow], list[Change]]:
     """(the rows to write, what changed). A row keeps its old numbers where they are the same up to rounding."""
-    before = {_key(r): r for r in old}
+    before = {row.key: row for row in old}
     changes, kept = [], []
-    for row in new:
-        was = before.pop(_key(row), None)
+    for row in sorted(new, key=_order):
+        was = before.pop(row.key, None)
         if was is None:
-            changes.append(Change(table, row, f"new, {row['verdict']}", moved=False))
+            changes.append(Change(table, row, f"new, {row.verdict}", moved=False))
             kept.append(row)
             continue
-        row = {k: was[k] if k in NUMBERS and _same(was.get(k, ""), v) else v for k, v in row.items()}
-        kept.append(row)
-        different = [k for k in COLUMNS[table] if row[k] != was.get(k, "")]
+        there, now = was.columns(), row.columns()
+        same = {k: there[k] for k in NUMBERS if now.get(k) and _same(there[k], now[k])}
+        kept.append(replace(row, fields={**row.fields, **same}))
+        different = [k for k in COLUMNS[table] if {**now, **same}[k] != there[k]]
         guarded = [k for k in different if k in GUARDED]
         if different:
             shown = guarded or different
-            what = ", ".join(f"{k} {_cut(was.get(k, ''))} -> {_cut(row[k])}" for k in shown)
+            what = ", ".join(f"{k} {_cut(there[k])} -> {_cut(now[k])}" for k in shown)
             changes.append(Change(table, row, what, moved=bool(guarded)))
-    changes += [Change(table, row, f"gone, was {row['verdict']}", moved=True) for row in before.values()]
+    changes += [Change(table, row, f"gone, was {row.verdict}", moved=True) for row in before.values()]
     return kept, changes
 
 
-def merge(old: list[Row], new: list[Row], notebooks: Iterable[str]) -> list[Row]:
+def merge(old: list[LedgerRow], new: list[LedgerRow], notebooks: Iterable[str]) -> list[LedgerRow]:
     """The old rows with those of some notebooks replaced: for a build of a part."""
-    built = set(notebooks)
-    fresh = {_key(r) for r in new}
-    return sorted([*(r for r in old if r["notebook"] not in built and _key(r) not in fresh), *new], key=_order)
+    built, fresh = set(notebooks), {row.key for row in new}
+    return [*(row for row in old if row.notebook not in built and row.key not in fresh), *new]
 
 
-def keep(old: list[Row], new: list[Row], failing: Iterable[Found]) -> list[Row]:
-    """The new rows, and for each record that fails the row that the file has, if any."""
-    keys = {(r.document, r.id) for r in failing} - {_key(r) for r in new}
-    return sorted([*new, *(r for r in old if _key(r) in keys)], key=_order)
+def keep(old: list[LedgerRow], new: list[LedgerRow], failing: Iterable[LedgerRow]) -> list[LedgerRow]:
+    """The new rows, and for each that fails the row that the file has, if any."""
+    keys = {row.key for row in failing} - {row.key for row in new}
+    return [*new, *(row for row in old if row.key in keys)]
 
 
-def _key(row: Mapping[str, str]) -> tuple[str, str]:
-    return (row["document"], row["id"])
-
-
-def _order(row: Row) -> tuple:
-    return (row["document"], natural(row["place"]), natural(row["id"]))
+def _order(row: LedgerRow) -> tuple[str, list[tuple[int, int, str]], list[tuple[int, int, str]]]:
+    return (row.document, natural(row.place), natural(row.id))
 
 
 def natural(text: str) -> list[tuple[int, int, str]]:
@@ -136,10 +103,6 @@ def _same(a: str, b: str) -> bool:
     except ValueError:
         return False
     return abs(x - y) <= SAME * max(abs(x), abs(y))
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
 
 
 def _cut(text: str, width: int = 60) -> str:

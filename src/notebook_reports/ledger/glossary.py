@@ -1,11 +1,11 @@
 """The terms of the documents side by side: Swedish, Polish, English, symbol and unit."""
 
-import tomllib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from notebook_reports.display import Table
+from notebook_reports.project.toml import read_toml, tables
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Term:
 def terms(source: Path) -> tuple[Term, ...]:
     """All terms in the order of the file. Raises ValueError where an English term stands twice or a key is unknown."""
     found = []
-    for number, entry in enumerate(tomllib.loads(source.read_text(encoding="utf-8"))["term"], 1):
+    for number, entry in enumerate(tables(read_toml(source), "term", source.name), 1):
         unknown = set(entry) - set(Term.__dataclass_fields__)
         if unknown or not entry.get("en"):
             raise ValueError(f"{source.name}, term {number}: {sorted(unknown) or 'no English term'}")

@@ -1,48 +1,18 @@
 """Collect the records that checks left in executed notebooks: none may fail, none be missing, none stand twice."""
 
+import re
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
 from typing import Any
 
 from notebook_reports.ledger.printed_data import PrintedDocument
-from notebook_reports.ledger.verdicts import CHECKS_MIME, FAILING
+from notebook_reports.ledger.row import LedgerRow
+from notebook_reports.ledger.verdicts import CHECKS_MIME
 from notebook_reports.project.failures import Failure
 from notebook_reports.project.source import INJECTED
 
-TABLES = ("value", "claim", "misprint")
 
-
-@dataclass(frozen=True)
-class Found:
-    """One record and where it was found. cell: position from 1. section: the nearest heading above the cell."""
-
-    notebook: str
-    cell: int
-    cell_id: str
-    section: str
-    table: str
-    document: str
-    place: str
-    id: str
-    verdict: str
-    fields: dict[str, str]
-
-    @property
-    def key(self) -> tuple[str, str, str]:
-        return (self.table, self.document, self.id)
-
-    @property
-    def fails(self) -> bool:
-        return self.verdict in FAILING
-
-    def data(self) -> dict[str, Any]:
-        return asdict(self)
-
-
-def records(content: Mapping[str, Any], notebook: str) -> list[Found]:
+def records(content: Mapping[str, Any], notebook: str) -> list[LedgerRow]:
     """The records of an executed notebook, in the order of its cells."""
-    import re
-
     found, number, section = [], 0, ""
     for cell in content["cells"]:
         number += INJECTED not in cell["metadata"].get("tags", ())
@@ -51,18 +21,20 @@ def records(content: Mapping[str, Any], notebook: str) -> list[Found]:
             section = headings[-1] if headings else section
         for output in cell.get("outputs", ()):
             for record in output.get("data", {}).get(CHECKS_MIME, ()):
-                found.append(Found(notebook, number, cell.get("id", ""), section, **record))
+                found.append(
+                    LedgerRow(**record, notebook=notebook, cell=number, cell_id=cell.get("id", ""), section=section)
+                )
     return found
 
 
-def failing(found: Iterable[Found]) -> list[Failure]:
+def failing(found: Iterable[LedgerRow]) -> list[Failure]:
     """A failure for each record whose verdict fails a build."""
     return [_failure(r) for r in found if r.fails]
 
 
-def repeated(found: Iterable[Found]) -> list[Failure]:
+def repeated(found: Iterable[LedgerRow]) -> list[Failure]:
     """A failure for each printed thing that was checked more than once."""
-    by_key: dict[tuple, list[Found]] = {}
+    by_key: dict[tuple, list[LedgerRow]] = {}
     for record in found:
         by_key.setdefault(record.key, []).append(record)
     return [
@@ -80,13 +52,13 @@ def repeated(found: Iterable[Found]) -> list[Failure]:
     ]
 
 
-def missing(found: Iterable[Found], documents: Iterable[PrintedDocument], few: int = 4) -> list[Failure]:
+def missing(found: Iterable[LedgerRow], documents: Iterable[PrintedDocument], few: int = 4) -> list[Failure]:
     """What is printed and no notebook checks: a failure for each place, or where they are many for each document."""
     seen = {r.key for r in found}
     failures = []
     for document in documents:
         lines, number = [], 0
-        for table, items in zip(TABLES, (document.values, document.claims, document.misprints), strict=True):
+        for table, items in document.tables().items():
             places: dict[str, list[str]] = {}
             for id, item in items.items():
                 if (table, document.id, id) not in seen:
@@ -101,18 +73,19 @@ def missing(found: Iterable[Found], documents: Iterable[PrintedDocument], few: i
     return failures
 
 
-def _failure(record: Found) -> Failure:
+def _failure(record: LedgerRow) -> Failure:
     fields = record.fields
     what = f"{record.document}, {record.place}"
     if record.table == "value":
-        computed = fields.get("exact") or fields.get("from_inputs") or "nothing"
+        found = [fields[name] for name in ("exact", "from_inputs", "quoted", "first") if fields.get(name)]
+        computed = found[0] if found else "nothing"
         what += (
             f", {fields['quantity']} ({record.id}): document prints {fields['printed']}, computed {_short(computed)}"
         )
         more = []
         if fields.get("exact") and fields.get("from_inputs"):
             more.append(f"from the document's own rounded inputs: {_short(fields['from_inputs'])}")
-        more.append("correct the digits, the computation, or give the reason in printed/")
+        more.append("correct the digits or the computation; a reason needs a number or an interval that bears it out")
     elif record.table == "misprint":
         what += f", misprint {record.id}: {record.verdict}"
         more = [f"printed {fields.get('printed', '')}; correct {fields.get('corrected', '')}"]

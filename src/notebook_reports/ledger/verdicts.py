@@ -1,19 +1,21 @@
 """Verdicts: what they are, and how one is decided."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, Protocol
 
 from notebook_reports.ledger import printed_data
 
 CHECKS_MIME = "application/vnd.loopbook.checks+json"
 
-GIVEN, REPRODUCED, ROUNDED, READ, MISPRINT, DIFFERS, UNEXPLAINED = VALUE_VERDICTS = (
+GIVEN, REPEATED, REPRODUCED, ROUNDED, QUOTED, READ, MISPRINT, DIFFERS, UNEXPLAINED = VALUE_VERDICTS = (
     "given",
+    "repeated",
     "reproduced",
     "from rounded inputs",
+    "quoted",
     "read",
     "misprint",
     "differs",
@@ -22,14 +24,16 @@ GIVEN, REPRODUCED, ROUNDED, READ, MISPRINT, DIFFERS, UNEXPLAINED = VALUE_VERDICT
 
 HOLDS, PARTLY, FAILS = CLAIM_VERDICTS = ("holds", "holds partly", "fails")
 
-CONFIRMED, NOT_CONFIRMED = MISPRINT_VERDICTS = ("confirmed", "not confirmed")
+PROVED, NOTED, NOT_CONFIRMED = MISPRINT_VERDICTS = ("proved", "noted", "not confirmed")
 
 FAILING = {UNEXPLAINED, NOT_CONFIRMED}
 
 MARKS = {
     GIVEN: "",
+    REPEATED: "",
     REPRODUCED: "good",
     ROUNDED: "good",
+    QUOTED: "",
     READ: "good",
     MISPRINT: "note",
     DIFFERS: "note",
@@ -37,12 +41,19 @@ MARKS = {
     HOLDS: "good",
     PARTLY: "note",
     FAILS: "note",
-    CONFIRMED: "note",
+    PROVED: "note",
+    NOTED: "",
     NOT_CONFIRMED: "bad",
 }
 
 
-def _exact(value: Any) -> Fraction | None:
+class Truth(Protocol):
+    """True or false, NumPy's too."""
+
+    def __bool__(self) -> bool: ...
+
+
+def exactly(value: Any) -> Fraction | None:
     """Any finite real number, also NumPy's and SymPy's, as a Fraction; None for none, NaN and infinity."""
     if value is None:
         return None
@@ -69,41 +80,71 @@ def rounds_to(value: Any, digits: str) -> bool:
     >>> rounds_to(0.65 / 0.15, "4.33"), rounds_to(0.65 / 0.15, "4.34"), rounds_to(Fraction(1, 8), "0.12")
     (True, False, True)
     """
-    value = _exact(value)
+    value = exactly(value)
     return value is not None and abs(value - Fraction(digits)) <= last_place(digits) / 2
 
 
-def value_verdict(value: printed_data.Value, exact: Any, from_inputs: Any = None, explained: Any = None) -> str:
-    """The verdict on one printed number; the order is the module's table."""
-    if value.kind == "given" and exact is None and from_inputs is None:
+@dataclass(frozen=True)
+class Computed:
+    """What stands against one print; None where there is nothing.
+
+    exact: from first principles. from_inputs: by the document's own arithmetic from its own rounded numbers. quoted: as
+    the named source has it. first: the number that this one repeats, as printed there. explained: what follows from the
+    reason that the data gives for a difference.
+    """
+
+    exact: Any = None
+    from_inputs: Any = None
+    quoted: Any = None
+    first: Any = None
+    explained: Any = None
+
+    @property
+    def numbers(self) -> tuple[Any, ...]:
+        """Those that the print is compared with."""
+        return (self.exact, self.from_inputs, self.quoted, self.first)
+
+
+def value_verdict(value: printed_data.Value, found: Computed) -> str:
+    """The verdict on one printed number; the order is the table of `document`.
+
+    A constant of a source is not computed, so it is not rounded either: a quoted value is the source's number.
+    """
+    if value.kind == "given" and all(x is None for x in found.numbers):
         return GIVEN
-    if rounds_to(exact, value.printed):
-        return REPRODUCED
-    if rounds_to(from_inputs, value.printed):
-        return ROUNDED
-    a = _exact(exact)
-    if value.reading and a is not None and abs(a - value.fraction) <= Fraction(value.reading):
-        return READ
-    if value.corrected and (rounds_to(exact, value.corrected) or rounds_to(from_inputs, value.corrected)):
-        return MISPRINT
-    if explained is not None and not rounds_to(explained, value.printed):
-        return UNEXPLAINED
-    return DIFFERS if value.reason and not value.corrected else UNEXPLAINED
+    for verdict, number in ((REPRODUCED, found.exact), (ROUNDED, found.from_inputs), (REPEATED, found.first)):
+        if rounds_to(number, value.printed):
+            return verdict
+    if exactly(found.quoted) == value.fraction:
+        return QUOTED
+    if value.reading:
+        return READ if _within(found.exact, _around(value)) else UNEXPLAINED
+    if value.corrected:
+        return MISPRINT if any(rounds_to(x, value.corrected) for x in found.numbers) else UNEXPLAINED
+    known = found.exact if found.exact is not None else found.quoted
+    explained = rounds_to(found.explained, value.printed) or _within(known, value.between)
+    return DIFFERS if value.reason and explained else UNEXPLAINED
 
 
-def claim_verdict(parts: Mapping[str, bool]) -> str:
+def _around(value: printed_data.Value) -> tuple[Fraction, Fraction]:
+    width = Fraction(value.reading)
+    return value.fraction - width, value.fraction + width
+
+
+def _within(number: Any, interval: Sequence[str | Fraction]) -> bool:
+    exact = exactly(number)
+    if exact is None or not interval:
+        return False
+    low, high = (Fraction(end) for end in interval)
+    return low <= exact <= high
+
+
+def claim_verdict(parts: Mapping[str, Truth]) -> str:
     """All parts true: holds; some: holds partly; none: fails."""
     outcomes = [bool(v) for v in parts.values()]
     return HOLDS if all(outcomes) else PARTLY if any(outcomes) else FAILS
 
 
-@dataclass(frozen=True)
-class Record:
-    """One row of the ledger, as the harvest reads it."""
-
-    table: str  # value | claim | misprint
-    document: str
-    place: str
-    id: str
-    verdict: str
-    fields: dict[str, str]
+def misprint_verdict(holds: Truth, mended: Truth) -> str:
+    """A misprint is proved where what is printed does not hold and the correction does."""
+    return PROVED if mended and not holds else NOT_CONFIRMED

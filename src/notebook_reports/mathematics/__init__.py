@@ -8,7 +8,7 @@ frac(a, b)
 
 from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics.errors import MathError
-from notebook_reports.mathematics.parser import parse
+from notebook_reports.mathematics.tree import tree
 from notebook_reports.mathematics.write import mathml, text, typst
 
 __all__ = ["MathError", "extract_tag", "latex_to_mathml", "latex_to_text", "latex_to_typst"]
@@ -21,12 +21,12 @@ def latex_to_typst(latex: str, display: bool = False) -> str:
     A ``\\tag`` is shown at the end of its line; see `extract_tag` for numbers at the margin.
     Raises MathError.
     """
-    return typst.emit(parse(latex), display)
+    return typst.emit(tree(latex), display)
 
 
 def latex_to_mathml(latex: str, display: bool = False) -> str:
     """A complete ``<math>`` element in MathML Core. Raises MathError."""
-    return mathml.emit(parse(latex), display)
+    return mathml.emit(tree(latex), display)
 
 
 def latex_to_text(latex: str) -> str:
@@ -35,7 +35,7 @@ def latex_to_text(latex: str) -> str:
     >>> latex_to_text(r"\\frac{a+b}{2} \\le \\sqrt{x}")
     '(a + b)/2 ≤ √x'
     """
-    return text.emit(parse(latex))
+    return text.emit(tree(latex))
 
 
 def extract_tag(latex: str) -> tuple[str, str | None]:
@@ -47,7 +47,7 @@ def extract_tag(latex: str) -> tuple[str, str | None]:
     >>> extract_tag(r"u = K e \\tag{4.9}")
     ('u = K e', '4.9')
     """
-    tags = [node for node in _top_level(parse(latex)) if isinstance(node, n.TagNode)]
+    tags = [node for node in _top_level(tree(latex)) if isinstance(node, n.TagNode)]
     if len(tags) > 1:
         raise MathError("a second \\tag for one line", latex, tags[1].start)
     if not tags or tags[0].starred:

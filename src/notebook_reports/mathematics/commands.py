@@ -3,20 +3,15 @@
 import unicodedata
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 from notebook_reports.mathematics import environments, symbols, textmode
 from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics.alphabets import combine
 from notebook_reports.mathematics.lengths import _LENGTH, length_in_em
 from notebook_reports.mathematics.lexer import Token
-from notebook_reports.mathematics.more_commands import MORE
+from notebook_reports.mathematics.more_commands import MORE, SWITCHES
+from notebook_reports.mathematics.parser import Handler, Parser, Vocabulary
 from notebook_reports.mathematics.spacing import edges
-
-if TYPE_CHECKING:
-    from notebook_reports.mathematics.parser import Parser
-
-Handler = Callable[["Parser", Token], n.Node | None]
 
 
 def binomial(num: list[n.Node], den: list[n.Node], style: str = "") -> n.Node:
@@ -35,17 +30,17 @@ INFIX: dict[str, Callable[[list[n.Node], list[n.Node]], n.Node]] = {
 # -- fractions, roots, accents -------------------------------------------------------------------------------------
 
 
-def _fraction(p: "Parser", token: Token, style: str) -> n.Node:
+def _fraction(p: Parser, token: Token, style: str) -> n.Node:
     if token.text == "cfrac":
         p.lexer.raw_option()
     return n.Fraction(p.argument(token), p.argument(token), style)
 
 
-def _binomial(p: "Parser", token: Token, style: str) -> n.Node:
+def _binomial(p: Parser, token: Token, style: str) -> n.Node:
     return binomial(p.argument(token), p.argument(token), style)
 
 
-def _genfrac(p: "Parser", token: Token) -> n.Node:
+def _genfrac(p: Parser, token: Token) -> n.Node:
     """``\\genfrac{(}{)}{0pt}{style}{n}{k}``; the thickness is the usual one (empty) or 0pt."""
     fences = []
     for _ in range(2):
@@ -65,25 +60,25 @@ def _genfrac(p: "Parser", token: Token) -> n.Node:
     return n.Fenced(fences[0], [body], fences[1]) if any(fences) else body
 
 
-def _root(p: "Parser", token: Token) -> n.Node:
+def _root(p: Parser, token: Token) -> n.Node:
     index = p.option()
     return n.Root(p.argument(token), index)
 
 
-def _accent(p: "Parser", token: Token, name: str, wide: bool) -> n.Node:
+def _accent(p: Parser, token: Token, name: str, wide: bool) -> n.Node:
     return n.Accent(name, p.argument(token), wide)
 
 
-def _line(p: "Parser", token: Token, over: bool) -> n.Node:
+def _line(p: Parser, token: Token, over: bool) -> n.Node:
     return n.Line(p.argument(token), over)
 
 
-def _brace(p: "Parser", token: Token) -> n.Node:
+def _brace(p: Parser, token: Token) -> n.Node:
     char, over = symbols.BRACES[token.text]
     return n.Brace(p.argument(token), char, over)
 
 
-def _stack(p: "Parser", token: Token) -> n.Node:
+def _stack(p: Parser, token: Token) -> n.Node:
     first, base = p.argument(token), p.argument(token)
     cls = (edges(base[0]) or ("ord",))[0] if len(base) == 1 else "ord"
     if token.text == "stackrel":
@@ -91,7 +86,7 @@ def _stack(p: "Parser", token: Token) -> n.Node:
     return n.Stack(base, None, first, cls) if token.text == "underset" else n.Stack(base, first, None, cls)
 
 
-def _arrow(p: "Parser", token: Token) -> n.Node:
+def _arrow(p: Parser, token: Token) -> n.Node:
     under = p.option()
     return n.Arrow(symbols.LONG_ARROWS[token.text], p.argument(token), under)
 
@@ -99,7 +94,7 @@ def _arrow(p: "Parser", token: Token) -> n.Node:
 # -- delimiters, operators, spaces -----------------------------------------------------------------------------------
 
 
-def _big(p: "Parser", token: Token) -> n.Node:
+def _big(p: Parser, token: Token) -> n.Node:
     size = token.text.rstrip("lrm")
     char = p.delimiter(token)
     cls = {"l": "open", "r": "close", "m": "rel"}.get(token.text[len(size) :], "ord")
@@ -109,13 +104,13 @@ def _big(p: "Parser", token: Token) -> n.Node:
     return n.Big(char, symbols.BIG[size], cls)
 
 
-def _wide_relation(p: "Parser", token: Token) -> n.Node:
+def _wide_relation(p: Parser, token: Token) -> n.Node:
     r"""amsmath's \implies, \impliedby and \iff: a long arrow with a space on both sides."""
     thick = n.Space(symbols.SPACES[";"])
     return n.Classed([thick, n.Symbol(symbols.WIDE_RELATIONS[token.text], "rel"), thick], "rel")
 
 
-def _function(p: "Parser", token: Token) -> n.Node:
+def _function(p: Parser, token: Token) -> n.Node:
     limits = token.text in symbols.LIMIT_FUNCTIONS
     words = symbols.LIMIT_FUNCTIONS.get(token.text, token.text).split()
     name: list[n.Node] = [n.Word(words[0])]
@@ -124,7 +119,7 @@ def _function(p: "Parser", token: Token) -> n.Node:
     return n.Operator(name, limits)
 
 
-def _operator(p: "Parser", token: Token) -> n.Node:
+def _operator(p: Parser, token: Token) -> n.Node:
     limits = p.lexer.take("*")
     before, p.operator_name = p.operator_name, True
     name = p.with_font("normal", token)
@@ -132,12 +127,12 @@ def _operator(p: "Parser", token: Token) -> n.Node:
     return n.Operator(name, limits or token.text == "operatornamewithlimits")
 
 
-def _limit_variant(p: "Parser", token: Token) -> n.Node:
+def _limit_variant(p: Parser, token: Token) -> n.Node:
     word: list[n.Node] = [n.Word("lim")]
     return n.Operator([n.Line(word, over=token.text == "varlimsup")], limits=True)
 
 
-def _mod(p: "Parser", token: Token) -> n.Node:
+def _mod(p: Parser, token: Token) -> n.Node:
     word, thick = n.Word("mod"), n.Space(1 / 3)
     if token.text == "bmod":
         return n.Classed([word], "bin")
@@ -148,7 +143,7 @@ def _mod(p: "Parser", token: Token) -> n.Node:
     return n.Group([n.Space(1.0), n.Symbol("(", "open"), *inner, *body, n.Symbol(")", "close")])
 
 
-def _not(p: "Parser", token: Token) -> n.Node:
+def _not(p: Parser, token: Token) -> n.Node:
     target = p.argument(token)
     if len(target) == 1 and isinstance(target[0], n.Symbol):
         negated = unicodedata.normalize("NFC", target[0].char + "\u0338")
@@ -157,7 +152,7 @@ def _not(p: "Parser", token: Token) -> n.Node:
     raise p.error("\\not is known before relations and arrows only, such as \\not= or \\not\\in", token)
 
 
-def _space(p: "Parser", token: Token) -> n.Node:
+def _space(p: Parser, token: Token) -> n.Node:
     """``\\hspace{1em}``, ``\\mspace{18mu}``, ``\\kern1em``"""
     p.lexer.take("*")
     if p.lexer.peek().is_char("{"):
@@ -176,16 +171,16 @@ def _space(p: "Parser", token: Token) -> n.Node:
 # -- fonts, text, colour -------------------------------------------------------------------------------------------
 
 
-def _font(p: "Parser", token: Token) -> n.Node:
+def _font(p: Parser, token: Token) -> n.Node:
     found = p.with_font(symbols.FONTS[token.text], token)
     return found[0] if len(found) == 1 and edges(found[0]) else n.Group(found)
 
 
-def _font_switch(p: "Parser", token: Token) -> None:
+def _font_switch(p: Parser, token: Token) -> None:
     p.font = combine(p.font, symbols.FONT_SWITCHES[token.text])
 
 
-def _text(p: "Parser", token: Token) -> n.Node:
+def _text(p: Parser, token: Token) -> n.Node:
     raw, start = p.lexer.raw_or_single(str(token))
     found = textmode.text(p, start, start + len(raw), symbols.TEXT_FONTS[token.text])
     return found[0] if len(found) == 1 else n.Group(found)
@@ -194,19 +189,19 @@ def _text(p: "Parser", token: Token) -> n.Node:
 # -- the rest --------------------------------------------------------------------------------------------------------
 
 
-def _phantom(p: "Parser", token: Token) -> n.Node:
+def _phantom(p: Parser, token: Token) -> n.Node:
     return n.Phantom(p.argument(token), width=token.text != "vphantom", height=token.text != "hphantom")
 
 
-def _strut(p: "Parser", token: Token) -> n.Node:
+def _strut(p: Parser, token: Token) -> n.Node:
     return n.Phantom([n.Symbol("(", "open")], width=False)
 
 
-def _cancel(p: "Parser", token: Token) -> n.Node:
+def _cancel(p: Parser, token: Token) -> n.Node:
     return n.Cancel(p.argument(token), token.text)
 
 
-def tag(p: "Parser", token: Token) -> n.TagNode:
+def tag(p: Parser, token: Token) -> n.TagNode:
     """``\\tag{4.9}`` shows (4.9), ``\\tag*{A}`` shows A."""
     starred = p.lexer.take("*")
     raw, start = p.lexer.raw_argument(str(token))
@@ -262,3 +257,5 @@ COMMANDS: dict[str, Handler] = {
     **MORE,
     **dict.fromkeys(("notag", "nonumber", "relax", "allowbreak", "nobreak", "displaylimits"), lambda p, token: None),
 }
+
+VOCABULARY = Vocabulary(COMMANDS, INFIX, SWITCHES, tag)

@@ -2,14 +2,12 @@
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics.errors import nearest
+from notebook_reports.mathematics.lengths import length_in_em
 from notebook_reports.mathematics.lexer import Token
-
-if TYPE_CHECKING:
-    from notebook_reports.mathematics.parser import Parser
+from notebook_reports.mathematics.parser import Parser
 
 MAX_COLUMNS = 200
 
@@ -63,7 +61,7 @@ _WITH_NUMBER = {"alignat", "alignat*", "alignedat"}
 _STARRED_MATRIX = {k + "matrix*" for k in _FENCES}
 
 
-def begin(p: "Parser", token: Token) -> n.Node:
+def begin(p: Parser, token: Token) -> n.Node:
     """The environment whose ``\\begin`` was just read."""
     raw, start = p.lexer.raw_argument("\\begin")
     name = raw.strip()
@@ -75,7 +73,8 @@ def begin(p: "Parser", token: Token) -> n.Node:
     if layout is None:
         known = [*LAYOUTS, *_TRANSPARENT, *_STARRED_MATRIX]
         raise p.lexer.error(f"unknown environment {name}{nearest(name, known, '')}", start)
-    align, vlines = layout.align, []
+    align = layout.align
+    vlines: list[int] = []
     if name in _STARRED_MATRIX and (option := p.lexer.raw_option()):
         align, _ = _columns(p, option, "one column", 1)
     if name == "array":
@@ -90,7 +89,7 @@ def begin(p: "Parser", token: Token) -> n.Node:
     return _grid(p, token, name, layout, align, rows, vlines, hlines, limit)
 
 
-def substack(p: "Parser", token: Token) -> n.Node:
+def substack(p: Parser, token: Token) -> n.Node:
     """``\\substack{a \\\\ b}``"""
     opened = p.lexer.next()
     if not opened.is_char("{"):
@@ -101,7 +100,7 @@ def substack(p: "Parser", token: Token) -> n.Node:
     return _grid(p, token, "substack", layout, "c", rows, [], hlines, 1)
 
 
-def braced(p: "Parser", token: Token, name: str) -> n.Node:
+def braced(p: Parser, token: Token, name: str) -> n.Node:
     """Plain TeX's form of an environment: ``\\matrix{a & b \\cr c & d}``."""
     opened = p.lexer.next()
     if not opened.is_char("{"):
@@ -112,7 +111,7 @@ def braced(p: "Parser", token: Token, name: str) -> n.Node:
     return _grid(p, token, name, layout, layout.align, rows, [], hlines, layout.columns)
 
 
-def _columns(p: "Parser", raw: tuple[str, int], what: str, most: int) -> tuple[str, list[int]]:
+def _columns(p: Parser, raw: tuple[str, int], what: str, most: int) -> tuple[str, list[int]]:
     """``{l|cr}``: the alignment of each column, and after how many columns lines stand."""
     text, start = raw
     align, vlines = "", []
@@ -128,7 +127,7 @@ def _columns(p: "Parser", raw: tuple[str, int], what: str, most: int) -> tuple[s
     return align, vlines
 
 
-def _rows(p: "Parser", layout: Layout, opened: Token) -> tuple[list[n.Row], list[int]]:
+def _rows(p: Parser, layout: Layout, opened: Token) -> tuple[list[n.Row], list[int]]:
     """Cells up to the end of the environment; a last row without content does not count."""
     rows: list[n.Row] = [n.Row([])]
     hlines: list[int] = []
@@ -163,19 +162,17 @@ def _rows(p: "Parser", layout: Layout, opened: Token) -> tuple[list[n.Row], list
     return rows, hlines
 
 
-def _row_space(p: "Parser") -> float:
+def _row_space(p: Parser) -> float:
     """The optional length of ``\\\\[6pt]``, in em; a bracket that holds no length is content."""
-    from notebook_reports.mathematics.lengths import length_in_em
-
     match = re.compile(r"\*?\[([^\[\]{}]*)\]").match(p.lexer.latex, p.lexer.position, p.lexer.limit)
     em = length_in_em(match[1]) if match else None
-    if em is None or abs(em) > 100:
+    if match is None or em is None or abs(em) > 100:
         return 0.0
     p.lexer.position = match.end()
     return em
 
 
-def _end(p: "Parser", name: str, opened: Token) -> None:
+def _end(p: Parser, name: str, opened: Token) -> None:
     token = p.lexer.next()
     if not token.is_command("end"):
         raise p.error(f"\\begin{{{name}}} is never closed: add \\end{{{name}}}", opened)
@@ -184,7 +181,17 @@ def _end(p: "Parser", name: str, opened: Token) -> None:
         raise p.lexer.error(f"\\begin{{{name}}} is closed by \\end{{{raw.strip()}}}", start)
 
 
-def _grid(p, token, name, layout, align, rows, vlines, hlines, limit) -> n.Node:
+def _grid(
+    p: Parser,
+    token: Token,
+    name: str,
+    layout: Layout,
+    align: str,
+    rows: list[n.Row],
+    vlines: list[int],
+    hlines: list[int],
+    limit: int,
+) -> n.Node:
     width = max((len(row.cells) for row in rows), default=0)
     if limit and width > limit:
         raise p.error(f"{name} has {limit} column{'s' * (limit > 1)}, a row here has {width} cells", token)

@@ -3,10 +3,12 @@
 import difflib
 from collections.abc import Iterable
 
+from notebook_reports.errors import PressError
+
 WIDTH = 72
 
 
-class MathError(ValueError):
+class MathError(PressError, ValueError):
     """A formula that cannot be converted: what is wrong, where, and how to mend it.
 
     latex: the formula. position: the 0-based index of the first character that is not understood.

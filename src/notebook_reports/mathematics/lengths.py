@@ -1,12 +1,8 @@
 """TeX lengths."""
 
 import re
-from typing import TYPE_CHECKING
 
 from notebook_reports.mathematics import symbols
-
-if TYPE_CHECKING:
-    pass
 
 _LENGTH = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+))\s*(em|ex|mu|pt|mm|cm|in|pc)\s*")
 

@@ -82,7 +82,7 @@ class Macros:
         """Remember the definition whose command ends here; where it ends."""
         if name == "let":
             target, at = _command_name(source, at)
-            at = _BLANK.match(source, at).end()
+            at = _past_blanks(source, at)
             at += source[at : at + 1] == "="
             meaning, at = _argument(source, at)
             self.commands[target] = self.commands.get(meaning.removeprefix("\\"), Macro(meaning))
@@ -141,9 +141,14 @@ def _command_name(source: str, at: int) -> tuple[str, int]:
     return found[1] or found[2], found.end()
 
 
+def _past_blanks(source: str, at: int) -> int:
+    blank = _BLANK.match(source, at)
+    return blank.end() if blank else at
+
+
 def _argument(source: str, at: int) -> tuple[str, int]:
     """One argument: a group without its braces, a command, or a character; and where it ends."""
-    at = _BLANK.match(source, at).end()
+    at = _past_blanks(source, at)
     if at >= len(source):
         raise MathError("a macro without its argument", source, len(source))
     if source[at] != "{":
@@ -168,7 +173,7 @@ def _replaced(macro: Macro, source: str, at: int) -> tuple[str, int]:
     arguments: list[str] = []
     if macro.delimiters:
         first, *rest = macro.delimiters
-        at = _BLANK.match(source, at).end() + len(first.strip())
+        at = _past_blanks(source, at) + len(first.strip())
         for delimiter in rest:
             end = source.find(delimiter.strip(), at) if delimiter.strip() else -1
             if end >= 0:

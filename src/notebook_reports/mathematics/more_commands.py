@@ -5,18 +5,13 @@ chemistry and units. Each is a small function, collected in `MORE`; what holds f
 
 import re
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from notebook_reports.mathematics import chemistry, environments, units
 from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics.colours import NAMES, colour
 from notebook_reports.mathematics.errors import nearest
 from notebook_reports.mathematics.lexer import Lexer, Token
-
-if TYPE_CHECKING:
-    from notebook_reports.mathematics.parser import Parser
-
-Handler = Callable[["Parser", Token], n.Node | None]
+from notebook_reports.mathematics.parser import Handler, Parser, Switch
 
 SIZES = {"tiny": 0.5, "scriptsize": 0.7, "Tiny": 0.6, "footnotesize": 0.8, "small": 0.85, "normalsize": 1.0}
 SIZES |= {"large": 1.2, "Large": 1.44, "LARGE": 1.73, "huge": 2.07, "Huge": 2.49}
@@ -24,19 +19,17 @@ OLD_GRIDS = {"matrix": "matrix", "pmatrix": "pmatrix", "bmatrix": "bmatrix", "vm
 OLD_GRIDS |= {"eqalign": "aligned", "eqalignno": "aligned", "displaylines": "gathered", "smallmatrix": "smallmatrix"}
 
 
-def _read(p: "Parser", latex: str) -> n.Node:
+def _read(p: Parser, latex: str) -> n.Node:
     """LaTeX that a command stands for."""
-    from notebook_reports.mathematics.parser import Parser
-
-    return n.Group(Parser(Lexer(latex), "", p.depth + 1).formula())
+    return n.Group(Parser(Lexer(latex), p.vocabulary, "", p.depth + 1).formula())
 
 
-def _old_grid(p: "Parser", token: Token) -> n.Node:
+def _old_grid(p: Parser, token: Token) -> n.Node:
     r"""``\matrix{a & b \cr c & d}``"""
     return environments.braced(p, token, OLD_GRIDS[token.text])
 
 
-def _root(p: "Parser", token: Token) -> n.Node:
+def _root(p: Parser, token: Token) -> n.Node:
     r"""``\root 3 \of x``"""
     index: list[n.Node] = []
     while not p.lexer.peek().is_command("of"):
@@ -48,7 +41,7 @@ def _root(p: "Parser", token: Token) -> n.Node:
     return n.Root(p.argument(token), index)
 
 
-def _build(p: "Parser", token: Token) -> n.Node:
+def _build(p: Parser, token: Token) -> n.Node:
     r"""``\buildrel a \over =``"""
     above: list[n.Node] = []
     while not p.lexer.peek().is_command("over"):
@@ -60,7 +53,7 @@ def _build(p: "Parser", token: Token) -> n.Node:
     return n.Stack(p.argument(token), above, None, "rel")
 
 
-def _option_of_colour(p: "Parser", token: Token) -> str:
+def _option_of_colour(p: Parser, token: Token) -> str:
     """``{red}``, ``{#ff0000}``, ``[rgb]{1,0,0}``: "#rrggbb"."""
     model = p.lexer.raw_option()
     raw, start = p.lexer.raw_argument(str(token))
@@ -71,12 +64,12 @@ def _option_of_colour(p: "Parser", token: Token) -> str:
     return found
 
 
-def _coloured(p: "Parser", token: Token) -> n.Node:
+def _coloured(p: Parser, token: Token) -> n.Node:
     told = _option_of_colour(p, token)
     return n.Colored(p.argument(token), told)
 
 
-def _color_switch(p: "Parser", token: Token) -> Callable[[list[n.Node]], n.Node] | n.Node:
+def _color_switch(p: Parser, token: Token) -> Callable[[list[n.Node]], n.Node] | n.Node:
     r"""``\color{red} x`` for the rest of its group, or, as MathJax has it, ``\color{red}{x}``."""
     told = _option_of_colour(p, token)
     if p.lexer.peek().is_char("{"):
@@ -84,11 +77,11 @@ def _color_switch(p: "Parser", token: Token) -> Callable[[list[n.Node]], n.Node]
     return lambda rest: n.Colored(rest, told)
 
 
-def _size_switch(p: "Parser", token: Token) -> Callable[[list[n.Node]], n.Node]:
+def _size_switch(p: Parser, token: Token) -> Callable[[list[n.Node]], n.Node]:
     return lambda rest: n.Sized(rest, SIZES[token.text])
 
 
-SWITCHES: dict[str, Callable[["Parser", Token], Callable[[list[n.Node]], n.Node] | n.Node]] = {
+SWITCHES: dict[str, Switch] = {
     "color": _color_switch,
     **dict.fromkeys(SIZES, _size_switch),
 }
@@ -98,7 +91,7 @@ SWITCHES: dict[str, Callable[["Parser", Token], Callable[[list[n.Node]], n.Node]
 def _nothing(arguments: int, option: bool = False) -> Handler:
     """A command that shows nothing, and its arguments with it."""
 
-    def read(p: "Parser", token: Token) -> None:
+    def read(p: Parser, token: Token) -> None:
         p.lexer.take("*")
         if option:
             p.lexer.raw_option()
@@ -111,7 +104,7 @@ def _nothing(arguments: int, option: bool = False) -> Handler:
 def _content(before: int, option: bool = False) -> Handler:
     """A command that shows its last argument. before: how many others it has."""
 
-    def read(p: "Parser", token: Token) -> n.Node:
+    def read(p: Parser, token: Token) -> n.Node:
         if option:
             p.lexer.raw_option()
         for _ in range(before):
@@ -126,7 +119,7 @@ def _logo(name: str) -> Handler:
 
 
 def _bracket(left: str, right: str) -> Handler:
-    def read(p: "Parser", token: Token) -> n.Node:
+    def read(p: Parser, token: Token) -> n.Node:
         raw, start = p.lexer.raw_argument(str(token))
         return n.Fenced(left, _with_bars(p.sub(start, start + len(raw)).formula()), right)
 
@@ -138,12 +131,12 @@ def _with_bars(items: list[n.Node]) -> list[n.Node]:
     return [n.Middle("|") if isinstance(i, n.Symbol) and i.char in bars else i for i in items]
 
 
-def _chemistry(p: "Parser", token: Token) -> n.Node:
+def _chemistry(p: Parser, token: Token) -> n.Node:
     raw, _ = p.lexer.raw_argument(str(token))
     return _read(p, chemistry.latex_of(raw))
 
 
-def _quantity(p: "Parser", token: Token) -> n.Node:
+def _quantity(p: Parser, token: Token) -> n.Node:
     p.lexer.raw_option()
     number, _ = p.lexer.raw_argument(str(token))
     unit, _ = p.lexer.raw_argument(str(token))
@@ -151,7 +144,7 @@ def _quantity(p: "Parser", token: Token) -> n.Node:
 
 
 def _one(read: Callable[[str], str]) -> Handler:
-    def handler(p: "Parser", token: Token) -> n.Node:
+    def handler(p: Parser, token: Token) -> n.Node:
         p.lexer.raw_option()
         raw, _ = p.lexer.raw_argument(str(token))
         return _read(p, read(raw))
@@ -159,7 +152,7 @@ def _one(read: Callable[[str], str]) -> Handler:
     return handler
 
 
-def _unicode(p: "Parser", token: Token) -> n.Node:
+def _unicode(p: Parser, token: Token) -> n.Node:
     r"""``\unicode{x2022}``"""
     p.lexer.raw_option()
     raw, start = p.lexer.raw_argument(str(token))
@@ -170,7 +163,7 @@ def _unicode(p: "Parser", token: Token) -> n.Node:
     return n.Text(chr(code))
 
 
-def _verb(p: "Parser", token: Token) -> n.Node:
+def _verb(p: Parser, token: Token) -> n.Node:
     at = token.end
     if at >= p.lexer.limit:
         raise p.error("\\verb needs a text between two equal characters", token)
@@ -181,7 +174,7 @@ def _verb(p: "Parser", token: Token) -> n.Node:
     return n.Text(p.lexer.latex[at + 1 : end], "mono")
 
 
-def _enclose(p: "Parser", token: Token) -> n.Node:
+def _enclose(p: Parser, token: Token) -> n.Node:
     raw, _ = p.lexer.raw_argument(str(token))
     p.lexer.raw_option()
     body = p.argument(token)
@@ -191,7 +184,7 @@ def _enclose(p: "Parser", token: Token) -> n.Node:
 
 
 def _boxed(before: int) -> Handler:
-    def read(p: "Parser", token: Token) -> n.Node:
+    def read(p: Parser, token: Token) -> n.Node:
         p.lexer.raw_option()
         for _ in range(before):
             p.lexer.raw_argument(str(token))
@@ -204,7 +197,7 @@ def _under_arrow(char: str) -> Handler:
     return lambda p, token: n.Stack(p.argument(token), None, [n.Symbol(char, "rel")], "ord")
 
 
-def _sideset(p: "Parser", token: Token) -> n.Node:
+def _sideset(p: Parser, token: Token) -> n.Node:
     """The scripts at the left of a large operator, then those at its right."""
     left, right = p.argument(token), p.argument(token)
     return n.Group([*left, p.scripted() or n.Group([]), *right])

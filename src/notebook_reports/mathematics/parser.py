@@ -4,15 +4,15 @@ What each command does is in `commands`, environments are in `environments`, tex
 """
 
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from typing import NamedTuple
 
-from notebook_reports.mathematics import commands, symbols
 from notebook_reports.mathematics import nodes as n
+from notebook_reports.mathematics import symbols
 from notebook_reports.mathematics.alphabets import combine, styled
 from notebook_reports.mathematics.errors import MathError, nearest
 from notebook_reports.mathematics.lexer import Lexer, Token
-from notebook_reports.mathematics.more_commands import SWITCHES
 
 MAX_DEPTH = 40
 _WORD_FONTS = {"normal", "bold", "italic", "sans", "mono"}
@@ -20,9 +20,17 @@ _CLASS_OF_CHAR = dict(symbols.SYMBOLS.values()) | dict(symbols.CHARACTERS.values
 _LARGE_CHARS = dict.fromkeys(symbols.LARGE.values(), True) | dict.fromkeys(symbols.INTEGRALS.values(), False)
 
 
-def parse(latex: str) -> list[n.Node]:
-    """The tree of a formula. Raises MathError."""
-    return Parser(Lexer(latex)).formula()
+Handler = Callable[["Parser", Token], n.Node | None]
+Switch = Callable[["Parser", Token], Callable[[list[n.Node]], n.Node] | n.Node]
+
+
+class Vocabulary(NamedTuple):
+    """What each command does: those before their arguments, those between them, those for the rest of a group, tags."""
+
+    commands: Mapping[str, Handler]
+    infix: Mapping[str, Callable[[list[n.Node], list[n.Node]], n.Node]]
+    switches: Mapping[str, Switch]
+    tag: Callable[["Parser", Token], n.TagNode]
 
 
 class Parser:
@@ -31,8 +39,9 @@ class Parser:
     font: the alphabet in force. operator_name: inside ``\\operatorname``, where a hyphen is a hyphen.
     """
 
-    def __init__(self, lexer: Lexer, font: str = "", depth: int = 0):
+    def __init__(self, lexer: Lexer, vocabulary: Vocabulary, font: str = "", depth: int = 0):
         self.lexer = lexer
+        self.vocabulary = vocabulary
         self.font = font
         self.depth = depth
         self.operator_name = False
@@ -93,17 +102,18 @@ class Parser:
                     found.append(n.Middle(self.delimiter(token)))
                 elif in_fence and (middle := self.braced_middle()):
                     found.append(middle)
-                elif token.is_command(*commands.INFIX):
+                elif token.is_command(*self.vocabulary.infix):
                     self.lexer.next()
                     rest = self.items(in_fence)
                     if any(isinstance(item, n.Middle) for item in found + rest):
                         raise self.error(f"{token} and \\middle in one group: put {token} into braces", token)
-                    return [commands.INFIX[token.text](found, rest)]
-                elif token.is_command(*SWITCHES):
+                    return [self.vocabulary.infix[token.text](found, rest)]
+                elif token.is_command(*self.vocabulary.switches):
                     self.lexer.next()
-                    switched = SWITCHES[token.text](self, token)
+                    switched = self.vocabulary.switches[token.text](self, token)
                     if isinstance(switched, n.Node):
-                        found.append(self.with_scripts(switched))
+                        if (scripted := self.with_scripts(switched)) is not None:
+                            found.append(scripted)
                         continue
                     rest = self.items(in_fence, tags)
                     held = [item for item in rest if isinstance(item, n.TagNode | n.Middle)]
@@ -112,7 +122,7 @@ class Parser:
                     self.lexer.next()
                     if not tags:
                         raise self.error("\\tag inside a group or matrix: move it to the end of its line", token)
-                    found.append(commands.tag(self, token))
+                    found.append(self.vocabulary.tag(self, token))
                 else:
                     node = self.scripted()
                     if node is not None:
@@ -151,7 +161,7 @@ class Parser:
 
     def sub(self, start: int, end: int) -> "Parser":
         """A parser of a stretch of the same formula, so that positions stay true."""
-        return Parser(Lexer(self.lexer.latex, start, end), self.font, self.depth + 1)
+        return Parser(Lexer(self.lexer.latex, start, end), self.vocabulary, self.font, self.depth + 1)
 
     def close_brace(self, opened: Token) -> None:
         token = self.lexer.peek()
@@ -286,13 +296,14 @@ class Parser:
             return n.Symbol(*symbols.SYMBOLS[name])
         if name in symbols.GREEK:
             return self.letters(Token("char", symbols.GREEK[name], token.position, token.end), single=True)
-        if name in commands.COMMANDS:
-            return commands.COMMANDS[name](self, token)
+        if name in self.vocabulary.commands:
+            return self.vocabulary.commands[name](self, token)
         if token.is_command("\\", "cr", "tabularnewline", "right", "end", "middle", "hline"):
             raise self.leftover(token)
-        if token.is_command("tag", *commands.INFIX):
+        if token.is_command("tag", *self.vocabulary.infix):
             raise self.error(f"{token} cannot be an argument by itself: put the argument into braces", token)
-        known = {*symbols.SYMBOLS, *symbols.GREEK, *commands.COMMANDS, *commands.INFIX, *SWITCHES, "left", "tag"}
+        words = self.vocabulary
+        known = {*symbols.SYMBOLS, *symbols.GREEK, *words.commands, *words.infix, *words.switches, "left", "tag"}
         raise self.error(f"unknown command {token}{nearest(name, known)}", token)
 
     def with_font(self, font: str, command: Token) -> list[n.Node]:

@@ -42,12 +42,12 @@ def _edge(delimiter: str, cls: str) -> str:
 def classes(items: list[n.Node]) -> list[tuple[str, str] | None]:
     """The classes of a list's nodes after TeX's rule that a binary operator without two operands is ordinary."""
     found = [edges(item) for item in items]
-    atoms = [i for i, pair in enumerate(found) if pair]
-    for place, i in enumerate(atoms):
-        if found[i][0] != "bin":
+    atoms = [(i, pair) for i, pair in enumerate(found) if pair]
+    for place, (i, pair) in enumerate(atoms):
+        if pair[0] != "bin":
             continue
-        before = found[atoms[place - 1]][1] if place else None
-        after = found[atoms[place + 1]][0] if place + 1 < len(atoms) else None
+        before = (found[atoms[place - 1][0]] or pair)[1] if place else None
+        after = atoms[place + 1][1][0] if place + 1 < len(atoms) else None
         if before in (None, "bin", "op", "rel", "open", "punct") or after in (None, "rel", "close", "punct"):
             found[i] = ("ord", "ord")
     return found

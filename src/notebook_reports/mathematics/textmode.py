@@ -1,15 +1,12 @@
 """Text inside formulas: ``\\text{for $x > 0$}``. Spaces count, mathematics stands between dollar signs."""
 
 import unicodedata
-from typing import TYPE_CHECKING
 
 from notebook_reports.mathematics import nodes as n
 from notebook_reports.mathematics import symbols
 from notebook_reports.mathematics.errors import nearest
 from notebook_reports.mathematics.lexer import Lexer, Token
-
-if TYPE_CHECKING:
-    from notebook_reports.mathematics.parser import Parser
+from notebook_reports.mathematics.parser import Parser
 
 _CHARACTERS = {
     **symbols.ESCAPES,
@@ -21,7 +18,7 @@ _CHARACTERS = {
 }
 
 
-def text(p: "Parser", start: int, end: int, variant: str) -> list[n.Node]:
+def text(p: Parser, start: int, end: int, variant: str) -> list[n.Node]:
     """The nodes of the text between two positions of the formula."""
     lexer = p.lexer
     found: list[n.Node] = []
@@ -77,13 +74,14 @@ def text(p: "Parser", start: int, end: int, variant: str) -> list[n.Node]:
     return found
 
 
-def plain(p: "Parser", start: int, end: int, command: str) -> list[str]:
+def plain(p: Parser, start: int, end: int, command: str) -> list[str]:
     """The text between two positions where mathematics is not allowed."""
-    nodes = text(p, start, end, "normal")
-    for node in nodes:
+    found = []
+    for node in text(p, start, end, "normal"):
         if not isinstance(node, n.Text):
             raise p.lexer.error(f"{command} takes plain text without formulas", start)
-    return [node.text for node in nodes]
+        found.append(node.text)
+    return found
 
 
 def _closing_dollar(lexer: Lexer, i: int, end: int) -> int:

@@ -6,7 +6,8 @@ Lines without an environment stand below each other, a character that is no math
 import re
 from collections.abc import Iterator
 
-from notebook_reports.mathematics.lexer import Lexer
+from notebook_reports.mathematics.errors import MathError
+from notebook_reports.mathematics.tree import tree
 
 _PROTECTED = re.compile(
     r"\\(?:text\w*|mbox|hbox|operatorname\*?|tag\*?|label|ce|SI|si|num|qty|unit)\s*\{[^{}]*\}|\\[A-Za-z]+|\\.",
@@ -94,12 +95,10 @@ def _in_lines(latex: str) -> str:
 
 def _with_text(latex: str) -> str:
     """Characters beyond ASCII that the converter does not know as text."""
-    from notebook_reports.mathematics import MathError
-    from notebook_reports.mathematics.parser import Parser
 
     def known(char: str) -> bool:
         try:
-            Parser(Lexer(char)).formula()
+            tree(char)
         except MathError:
             return False
         return True

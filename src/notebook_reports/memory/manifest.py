@@ -20,7 +20,7 @@ def manifest(project: Project) -> list[dict[str, Any]]:
     entries = []
     for notebook in project.notebooks():
         stamp = stamps.load(project, notebook)
-        records = stamps.load_records(project, notebook) if stamp else []
+        records = stamps.records(project, notebook) if stamp else []
         reports = {}
         for format in ("pdf", "html", "ipynb"):
             path = project.reports / f"{notebook.id}.{format}"
@@ -54,4 +54,5 @@ def _title(notebook: Notebook) -> str:
 
 def write_manifest(project: Project) -> None:
     """Write it to ``.cache/manifest.json``."""
+    atomic.clear(project.cache / "manifest.json")
     atomic.write(project.cache / "manifest.json", json.dumps(manifest(project), ensure_ascii=False, indent=1).encode())

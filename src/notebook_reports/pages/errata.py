@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from notebook_reports.ledger.files import natural
-from notebook_reports.ledger.harvest import Found
+from notebook_reports.ledger.files import NUMBERS, natural
 from notebook_reports.ledger.printed_data import MISPRINT_KINDS
+from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.ledger.verdicts import FAILS, MISPRINT
 
 NUMBER, STATEMENT = "number", "statement"
@@ -22,7 +22,7 @@ class Erratum:
     printed: str
     corrected: str
     note: str
-    found: Found
+    found: LedgerRow
 
     @property
     def rank(self) -> tuple:
@@ -30,7 +30,7 @@ class Erratum:
         return KINDS.index(self.kind), natural(self.found.place), natural(self.found.id)
 
 
-def errata(records: Iterable[Found]) -> list[Erratum]:
+def errata(records: Iterable[LedgerRow]) -> list[Erratum]:
     """The errata among the records: those that mislead first, then by document as the records come, kind and place.
 
     A wrong formula, code line or number misleads whoever computes with it; a statement that fails is false; the rest
@@ -42,13 +42,13 @@ def errata(records: Iterable[Found]) -> list[Erratum]:
     return sorted(errata, key=lambda e: (GROUPS.index(e.group), documents.index(e.found.document), e.rank))
 
 
-def _erratum(found: Found) -> Erratum | None:
+def _erratum(found: LedgerRow) -> Erratum | None:
     fields = found.fields
     if found.table == "misprint" and not found.fails:
         group = MISLEADS if fields["misleads"] == "yes" else HARMLESS
         return Erratum(fields["kind"], group, fields["printed"], fields["corrected"], fields["note"], found)
     if found.table == "value" and found.verdict == MISPRINT:
-        right = fields["exact"] or fields["from_inputs"]
+        right = next(fields[name] for name in NUMBERS if fields.get(name))
         return Erratum(NUMBER, MISLEADS, fields["printed"], right, fields["reason"], found)
     if found.table == "claim" and found.verdict == FAILS:
         return Erratum(STATEMENT, FALSE, fields["says"], "", fields["evidence"], found)

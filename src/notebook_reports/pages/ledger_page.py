@@ -9,15 +9,26 @@ from typing import Any
 
 from notebook_reports.display import Table
 from notebook_reports.export.page import LinkedTable, Page
-from notebook_reports.ledger.coverage import TABLES, VERDICTS, Count, by_document, total
-from notebook_reports.ledger.files import natural
+from notebook_reports.ledger.coverage import VERDICTS, Count, by_document, total
+from notebook_reports.ledger.files import NUMBERS, natural
 from notebook_reports.ledger.glossary import Term
-from notebook_reports.ledger.harvest import Found
-from notebook_reports.ledger.verdicts import FAILS, GIVEN, HOLDS, MARKS, MISPRINT, READ, REPRODUCED, ROUNDED
+from notebook_reports.ledger.row import TABLES, LedgerRow
+from notebook_reports.ledger.verdicts import (
+    FAILS,
+    GIVEN,
+    HOLDS,
+    MARKS,
+    MISPRINT,
+    QUOTED,
+    READ,
+    REPEATED,
+    REPRODUCED,
+    ROUNDED,
+)
 from notebook_reports.pages.errata import FALSE, HARMLESS, MISLEADS, Erratum, errata
 from notebook_reports.pages.medium import Medium, To, at, beside, code, literal, short
 
-GOOD = {GIVEN, REPRODUCED, ROUNDED, READ, HOLDS}
+GOOD = {GIVEN, REPEATED, REPRODUCED, ROUNDED, QUOTED, READ, HOLDS}
 NAMES = {"value": "values", "claim": "statements", "misprint": "misprints"}
 COVERAGE, ERRATA, OPEN, REPRODUCED_PAGE, GLOSSARY, INDEX = (
     "Coverage",
@@ -31,7 +42,7 @@ PLAIN_KINDS = {"text", "label", "cross-reference"}
 Content = list[Any]
 
 
-def pages(medium: Medium, counts: Sequence[Count], found: Sequence[Found], terms: Sequence[Term]) -> list[Page]:
+def pages(medium: Medium, counts: Sequence[Count], found: Sequence[LedgerRow], terms: Sequence[Term]) -> list[Page]:
     """All pages, in the order of the book. terms: of the glossary, none where there is none."""
     made = [
         Page(COVERAGE, coverage_page(counts), "coverage"),
@@ -86,7 +97,9 @@ def coverage_page(counts: Sequence[Count]) -> Content:
     content: Content = [
         "Every number, statement and misprint of the documents that can be checked, with the verdict it got. "
         "A *given* value is an input of the document; *from rounded inputs* means that the digits follow from the "
-        "document's own rounded numbers and not from exact ones; *read* means read off a graph, within its width.",
+        "document's own rounded numbers and not from exact ones; a *quoted* value agrees with the source that is named "
+        "and is not derived; a *repeated* one agrees with its first print; *read* means read off a graph, within its "
+        "width. A misprint is *proved* by computation, or *noted* where nothing can be computed.",
         Table(heads, rows, "Verdicts by document", align),
     ]
     missing = [c for c in counts if c.unchecked]
@@ -114,7 +127,7 @@ def _number(number: int) -> str:
     return str(number) if number else ""
 
 
-def errors(found: Iterable[Found]) -> str:
+def errors(found: Iterable[LedgerRow]) -> str:
     """The number of errata in words."""
     wrong = errata(found)
     misleads, false = (sum(e.group == group for e in wrong) for group in (MISLEADS, FALSE))
@@ -124,7 +137,7 @@ def errors(found: Iterable[Found]) -> str:
     )
 
 
-def errata_page(medium: Medium, found: Sequence[Found]) -> Content:
+def errata_page(medium: Medium, found: Sequence[LedgerRow]) -> Content:
     """What is wrong in the documents; what misleads first."""
     wrong = errata(found)
     if not wrong:
@@ -167,7 +180,7 @@ def _forms(wrong: Erratum) -> tuple[str, str]:
     return show(wrong.printed), show(wrong.corrected)
 
 
-def open_page(medium: Medium, found: Sequence[Found]) -> Content:
+def open_page(medium: Medium, found: Sequence[LedgerRow]) -> Content:
     """What neither holds nor is wrong: values that differ for a reason, statements that hold in part."""
     chosen = [r for r in found if r.table != "misprint" and r.verdict not in {*GOOD, MISPRINT, FAILS}]
     chosen += [r for r in found if r.table == "misprint" and r.fails]
@@ -198,23 +211,33 @@ def open_page(medium: Medium, found: Sequence[Found]) -> Content:
     return content
 
 
-def reproduced_page(medium: Medium, found: Iterable[Found]) -> Content:
+def reproduced_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
     """Every value that the computation gives, every input, every statement that holds."""
     good = [r for r in found if r.verdict in GOOD]
     content: Content = []
     if good:
         content.append(
             "*exact* is computed from first principles at full precision; *from rounded inputs* by the document's own "
-            "chain of arithmetic, from its own rounded numbers, where only that gives the printed digits."
+            "chain of arithmetic, from its own rounded numbers, where only that gives the printed digits; *elsewhere* "
+            "is the number of the named source, or of the first print."
         )
     for document in dict.fromkeys(r.document for r in _sorted(good)):
         here = [r for r in _sorted(good) if r.document == document]
         content.append(f"## {document}")
         values = [r for r in here if r.table == "value"]
         if values:
-            columns = ["place", "quantity", "printed", "exact", "from rounded inputs", medium.where, "verdict"]
+            columns = [
+                "place",
+                "quantity",
+                "printed",
+                "exact",
+                "from rounded inputs",
+                "elsewhere",
+                medium.where,
+                "verdict",
+            ]
             rows = [[literal(r.place), *_value(r), at(r), r.verdict] for r in values]
-            align = ["left", "left", "right", "right", "right", "right" if medium.paper else "left", "left"]
+            align = ["left", "left", *["right"] * 4, "right" if medium.paper else "left", "left"]
             content.append(medium.table(columns, rows, f"{document}: values", align, _marks(values)))
         claims = [r for r in here if r.table == "claim"]
         if claims:
@@ -222,28 +245,28 @@ def reproduced_page(medium: Medium, found: Iterable[Found]) -> Content:
     return content
 
 
-def _claims(medium: Medium, claims: Sequence[Found], caption: str) -> LinkedTable:
+def _claims(medium: Medium, claims: Sequence[LedgerRow], caption: str) -> LinkedTable:
     columns = ["place", "the document says", "computed", medium.where, "verdict"]
     rows = [[literal(r.place), r.fields["says"], r.fields["evidence"], at(r), r.verdict] for r in claims]
     return medium.table(columns, rows, caption, (), _marks(claims))
 
 
-def _value(found: Found) -> tuple[str, str, str, str]:
+def _value(found: LedgerRow) -> tuple[str, str, str, str, str]:
     fields = found.fields
     digits = fields["printed"]
-    computed = (beside(fields[key], digits) for key in ("exact", "from_inputs"))
-    return (fields["quantity"], f"{short(digits)} {fields['unit']}".strip(), *computed)
+    exact, from_inputs, quoted, first = (beside(fields.get(key, ""), digits) for key in NUMBERS)
+    return fields["quantity"], f"{short(digits)} {fields['unit']}".strip(), exact, from_inputs, quoted or first
 
 
-def _place(found: Found) -> str:
+def _place(found: LedgerRow) -> str:
     return f"{found.document}, {literal(found.place)}"
 
 
-def _marks(found: Iterable[Found]) -> list[str]:
+def _marks(found: Iterable[LedgerRow]) -> list[str]:
     return [MARKS[r.verdict] for r in found]
 
 
-def _sorted(found: Iterable[Found]) -> list[Found]:
+def _sorted(found: Iterable[LedgerRow]) -> list[LedgerRow]:
     """By document as they come, then by place as a person counts."""
     found = list(found)
     documents = list(dict.fromkeys(r.document for r in found))
@@ -259,12 +282,12 @@ def glossary_page(terms: Sequence[Term]) -> Content:
     return [Table(heads, rows, "Terms of the three documents", ["left"] * 5)]
 
 
-def index_page(medium: Medium, found: Iterable[Found]) -> Content:
+def index_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
     """From a printed table, figure, equation or section to where the notebooks take it up."""
     content: Content = []
     records = _sorted(found)
     for document in dict.fromkeys(r.document for r in records):
-        met: dict[tuple[str, str, str], Found] = {}
+        met: dict[tuple[str, str, str], LedgerRow] = {}
         for record in records:
             if record.document == document:
                 key = (record.place, record.notebook, record.section)
@@ -277,10 +300,10 @@ def index_page(medium: Medium, found: Iterable[Found]) -> Content:
     return content
 
 
-def _short_name(found: Found) -> str:
+def _short_name(found: LedgerRow) -> str:
     """The notebook's name, with its folder where that is not the document's."""
     return found.notebook.removeprefix(found.document.replace("-", "_") + "/")
 
 
-def _section(medium: Medium, found: Found) -> list[str]:
+def _section(medium: Medium, found: LedgerRow) -> list[str]:
     return [at(found).section] if medium.paper else []

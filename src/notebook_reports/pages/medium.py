@@ -5,9 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from notebook_reports import display
 from notebook_reports.display import Table, number
 from notebook_reports.export.page import LinkedTable, Page
-from notebook_reports.ledger.harvest import Found
+from notebook_reports.ledger.row import LedgerRow
 
 LONG_INTEGER = 12
 """Digits in a row from which on a number is not shown whole."""
@@ -41,7 +42,7 @@ class To:
         return f"notebook:{self.notebook}"
 
 
-def at(found: Found) -> At:
+def at(found: LedgerRow) -> At:
     """Where a record stands; the words of its heading without their links."""
     return At(found.notebook, found.cell, re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", found.section))
 
@@ -64,7 +65,7 @@ class Medium:
     def table(
         self,
         columns: Sequence[str],
-        rows: Sequence[Sequence[str | At | To]],
+        rows: Sequence[Sequence[Any]],
         caption: str,
         align: Sequence[str] = (),
         marks: Sequence[str] = (),
@@ -111,7 +112,7 @@ def literal(text: str) -> str:
     >>> literal("costs 5 $")
     'costs 5 \\$'
     """
-    return " ".join(text.split()).replace("$", "\\$").replace("`", "'")
+    return display.literal(" ".join(text.split()))
 
 
 def code(text: str) -> str:

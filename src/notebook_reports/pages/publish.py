@@ -4,15 +4,27 @@
 time is imported when there is something to write.
 """
 
-import json
+import platform
 import time
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from notebook_reports.memory import fingerprint, stamps
+from notebook_reports.export.errors import ExportError
+from notebook_reports.ledger import files as ledger_files
+from notebook_reports.ledger.coverage import coverage
+from notebook_reports.ledger.glossary import terms
+from notebook_reports.ledger.row import LedgerRow
+from notebook_reports.ledger.transcribed import printed_documents
+from notebook_reports.memory import fingerprint, sealed, stamps
+from notebook_reports.memory.hashes import hash_file, hash_now, of_bytes
+from notebook_reports.memory.manifest import manifest
+from notebook_reports.pages import ledger_page as ledger
+from notebook_reports.pages.links import dead_links
+from notebook_reports.pages.medium import PAPER, SCREEN
 from notebook_reports.project import atomic
 from notebook_reports.project.console import Console, because
 from notebook_reports.project.failures import Failure
-from notebook_reports.project.outline import FILE
+from notebook_reports.project.outline import FILE, read_outline
 from notebook_reports.project.project import FORMATS, Notebook, Project, UsageError
 from notebook_reports.run.quick_imports import import_nbformat
 
@@ -29,8 +41,8 @@ def publishes(project: Project, complete: bool, formats: tuple[str, ...]) -> boo
 def reasons(project: Project) -> list[str]:
     """Why the pages have to be written; none where they are as they should be."""
     stamp = _stamp(project)
-    if stamp and any(stamps.print_of(project.reports / name) != stamp["files"].get(name) for name in NAMES):
-        gone = [n for n in NAMES if stamps.print_of(project.reports / n) != stamp["files"].get(n)]
+    gone = [n for n in NAMES if stamp and hash_now(project.reports / n) != stamp["files"].get(n)]
+    if gone:
         return [f"reports/{name} is not as it was written" for name in gone]
     return fingerprint.differences(stamp["prints"] if stamp else None, _prints(project))
 
@@ -61,8 +73,8 @@ def publish(project: Project, console: Console) -> list[Failure]:
         return failures
     for name, content in made.items():
         atomic.write(project.reports / name, content)
-    files = {name: stamps.print_of(project.reports / name) for name in NAMES}
-    atomic.write(project.cache / STAMP, json.dumps({"prints": prints, "files": files}, indent=1).encode())
+    files = {name: of_bytes(content) for name, content in made.items()}
+    sealed.write(project.cache / STAMP, {"prints": prints, "files": files})
     words = ["ok  ", f"reports/{BOOK}, {LEDGER}, {INDEX}", f"{time.monotonic() - began:.1f} s", because(why, True)]
     console.line("  ".join(w for w in words if w))
     return []
@@ -70,15 +82,13 @@ def publish(project: Project, console: Console) -> list[Failure]:
 
 def withdraw(project: Project) -> None:
     """Remove the pages."""
-    for path in (project.cache / STAMP, *(project.reports / name for name in NAMES)):
-        atomic.remove(path)
+    atomic.clear(project.cache / STAMP, also_files=True)
+    for name in NAMES:
+        atomic.remove(project.reports / name)
 
 
 def versions() -> dict[str, str]:
     """What wrote the pages."""
-    import platform
-    from importlib.metadata import PackageNotFoundError, version
-
     found = {"Python": platform.python_version()}
     for name in VERSIONS:
         try:
@@ -91,24 +101,13 @@ def versions() -> dict[str, str]:
 def _make(project: Project) -> tuple[dict[str, bytes], list[Failure]]:
     """The content of the three files, or why there is none. Raises UsageError for an outline that does not fit."""
     import_nbformat()
-    from notebook_reports.export.errors import ExportError
-    from notebook_reports.ledger import files as ledger_files
-    from notebook_reports.ledger.coverage import coverage
-    from notebook_reports.ledger.glossary import terms
-    from notebook_reports.ledger.harvest import Found
-    from notebook_reports.ledger.transcribed import printed_documents
-    from notebook_reports.memory.manifest import manifest
-    from notebook_reports.pages import ledger_page as ledger
     from notebook_reports.pages import screen
-    from notebook_reports.pages.links import dead_links
-    from notebook_reports.pages.medium import PAPER, SCREEN
     from notebook_reports.pages.volume import volume
-    from notebook_reports.project.outline import read_outline
 
     entries = manifest(project)
     outline = read_outline(project, entries)
-    found = [Found(**record) for entry in outline.entries for record in entry["records"]]
-    counts = coverage(printed_documents(project), (r.data() for r in found))
+    found = [LedgerRow(**record) for entry in outline.entries for record in entry["records"]]
+    counts = coverage(printed_documents(project), found)
     glossary = project.documents / "glossary.toml"
     words = terms(glossary) if glossary.exists() else ()
     tools = versions()
@@ -140,18 +139,18 @@ def _built(project: Project, notebook: Notebook) -> bool:
 
 def _stamp(project: Project) -> dict[str, Any] | None:
     try:
-        stamp = json.loads((project.cache / STAMP).read_bytes())
-        return stamp if {"prints", "files"} <= set(stamp) else None
-    except (OSError, ValueError, TypeError):
+        stamp = sealed.read(project.cache / STAMP)
+    except sealed.Damaged:
         return None
+    return stamp if stamp and {"prints", "files"} <= set(stamp) else None
 
 
 def _prints(project: Project) -> fingerprint.Prints:
     """What the pages depend on: executed notebooks, what stands beside them, printed data, the code, the versions."""
     prints = {}
     for notebook in project.notebooks():
-        prints[notebook.id] = fingerprint.hash_file(stamps.executed_path(project, notebook))
+        prints[notebook.id] = hash_now(stamps.executed_path(project, notebook))
     beside = (p for p in project.notebooks_folder.rglob("*") if p.is_file() and p.suffix != ".ipynb")
     for path in sorted((*beside, *project.documents.rglob("*.toml"))):
-        prints[path.relative_to(project.root).as_posix()] = fingerprint.hash_file(path)
+        prints[path.relative_to(project.root).as_posix()] = hash_file(path)
     return {**prints, **fingerprint.of_pages(), **fingerprint.environment(project)}

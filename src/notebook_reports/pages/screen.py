@@ -8,9 +8,11 @@ from typing import Any
 from notebook_reports.export.exporters.html import style_sheet
 from notebook_reports.export.page import Page, export_page
 from notebook_reports.export.read.inline_text import read_inline
+from notebook_reports.export.scripts import policy
 from notebook_reports.export.write.html import HtmlWriter
-from notebook_reports.ledger.coverage import TABLES, VERDICTS, Count, by_document, total
+from notebook_reports.ledger.coverage import VERDICTS, Count, by_document, total
 from notebook_reports.ledger.files import FILES
+from notebook_reports.ledger.row import TABLES
 from notebook_reports.ledger.verdicts import MARKS
 from notebook_reports.pages.ledger_page import NAMES, told
 from notebook_reports.pages.medium import as_sections
@@ -45,6 +47,7 @@ def index_page(
     told: dict[str, Any] = {
         "outline": outline,
         "style": style_sheet(),
+        "policy": policy(),
         "bars": {"": bars(total(counts)), **{d.document.replace("-", "_"): bars(d) for d in by_document(counts)}},
         "sections": [(title, title.replace(" ", "-")) for title in sections],
         "versions": versions,

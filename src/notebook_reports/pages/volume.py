@@ -1,6 +1,5 @@
 """reports/loopbook.pdf: every executed notebook as a chapter, the ledger and the glossary as the appendix."""
 
-import json
 from collections.abc import Sequence
 
 from notebook_reports.export.book import Chapter, export_book
@@ -20,12 +19,13 @@ def volume(project: Project, outline: Outline, appendix: Sequence[Page], lines: 
             chapters.append(
                 Chapter(
                     notebook.id,
-                    json.loads(stamps.executed_path(project, notebook).read_bytes()),
+                    stamps.executed(project, notebook),
                     title=entry["title"],
                     part=part.title,
                     about=part.about,
                     document=part.folder.replace("_", "-"),
                     assets=notebook.path.parent,
+                    root=project.root,
                 )
             )
     return export_book(

@@ -2,13 +2,18 @@
 
 import errno
 import os
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import IO
 
 from notebook_reports.project.project import EnvironmentProblem
+
+_UMASK = os.umask(0o077)
+os.umask(_UMASK)
 
 
 def write(path: Path, content: bytes) -> None:
@@ -23,7 +28,7 @@ def write(path: Path, content: bytes) -> None:
         handle, aside = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
         with os.fdopen(handle, "wb") as file:
             file.write(content)
-        os.chmod(aside, 0o644)
+        os.chmod(aside, 0o666 & ~_UMASK)
         os.replace(aside, path)
     except OSError as error:
         raise EnvironmentProblem(f"cannot write {path}: {error.strerror or error}{_cure(error)}") from None
@@ -49,9 +54,29 @@ def writable(folder: Path) -> None:
 
 
 def remove(path: Path) -> None:
-    """Remove a file; not being there is fine."""
-    with suppress(FileNotFoundError):
+    """Remove a file; not being there is fine. Raises EnvironmentProblem where it cannot be removed."""
+    try:
         path.unlink()
+    except (FileNotFoundError, NotADirectoryError):
+        return
+    except OSError as error:
+        raise EnvironmentProblem(f"cannot remove {path}: {error.strerror or error}") from None
+
+
+def clear(path: Path, also_files: bool = False) -> None:
+    """In a cache: remove a folder or a link that stands where a file is to be written; where asked, the file too.
+
+    Raises EnvironmentProblem where that cannot be done.
+    """
+    try:
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        elif path.is_symlink() or (also_files and path.exists()):
+            path.unlink()
+    except NotADirectoryError:
+        pass
+    except OSError as error:
+        raise EnvironmentProblem(f"cannot remove {path}: {error.strerror or error}") from None
 
 
 @contextmanager
@@ -60,8 +85,13 @@ def only_builder(folder: Path, waiting: Callable[[str], None]) -> Iterator[None]
 
     The lock belongs to the process and dies with it: there is no stale lock to remove.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "build.lock", "a+", encoding="utf-8") as file:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        clear(folder / "build.lock")
+        file = open(folder / "build.lock", "a+", encoding="utf-8")  # noqa: SIM115
+    except OSError as error:
+        raise EnvironmentProblem(f"cannot write {folder / 'build.lock'}: {error.strerror or error}") from None
+    with file:
         if not _lock(file, wait=False):
             file.seek(0)
             waiting(file.read().strip() or "another build")
@@ -73,7 +103,7 @@ def only_builder(folder: Path, waiting: Callable[[str], None]) -> Iterator[None]
         yield
 
 
-def _lock(file, wait: bool) -> bool:
+def _lock(file: IO[str], wait: bool) -> bool:
     if sys.platform == "win32":
         import msvcrt
 

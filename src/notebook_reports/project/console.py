@@ -3,11 +3,24 @@
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TextIO
+from typing import Any, Protocol, TextIO
 
-from notebook_reports.build.job import Done
+from notebook_reports.project.failures import Failure
+from notebook_reports.project.printable import printable
+from notebook_reports.project.project import Notebook
 
 NAMES = {"value": ("value", "values"), "claim": ("claim", "claims"), "misprint": ("misprint", "misprints")}
+
+
+class Finished(Protocol):
+    """What a build knows of a notebook that it is done with; see `build.job.Done`."""
+
+    notebook: Notebook
+    seconds: float
+    failures: list[Failure]
+    warnings: list[list[Any]]
+    counts: dict[str, int]
+    ran: bool
 
 
 class Console:
@@ -16,11 +29,12 @@ class Console:
     def __init__(self, out: TextIO | None = None, quiet: bool = False):
         self.out = out or sys.stdout
         self.quiet = quiet
-        self._bar = None
+        self._bar: Any = None
 
     def line(self, text: str = "") -> None:
         if self.quiet:
             return
+        text = printable(text)
         if self._bar is not None:
             self._bar.write(text, file=self.out)
         else:
@@ -42,7 +56,7 @@ class Console:
                 bar, self._bar = self._bar, None
                 bar.close()
 
-    def done(self, done: Done, reasons: Sequence[str]) -> None:
+    def done(self, done: Finished, reasons: Sequence[str]) -> None:
         """One notebook: ok or FAIL, how long, what was checked, and why it was built."""
         good = not done.failures
         counts = [
@@ -62,9 +76,13 @@ class Console:
         if len(lines) > limit:
             self.line(f"ledger  and {len(lines) - limit} more rows")
 
-    def warnings(self, done: Sequence[Done], limit: int = 5) -> None:
+    def warnings(self, done: Sequence[Finished], limit: int = 5) -> None:
         """What notebooks said on stderr."""
-        found = [f"warn  {d.notebook.id}, cell {cell}: {text[:160]}" for d in done for cell, text in d.warnings]
+        found = []
+        for one in done:
+            for cell, text in one.warnings:
+                where = f"{one.notebook.id}, cell {cell}" if cell else one.notebook.id
+                found.append(f"warn  {where}: {text[:160]}")
         for text in found[:limit]:
             self.line(text)
         if len(found) > limit:
@@ -79,7 +97,7 @@ def because(reasons: Sequence[str], ran: bool) -> str:
     return f"({'rebuilt' if ran else 'exported again'}: {reasons[0]}{more})"
 
 
-def _brief(done: Done) -> str:
+def _brief(done: Finished) -> str:
     first = done.failures[0]
     more = f" (and {len(done.failures) - 1} more)" if len(done.failures) > 1 else ""
     text = f"cell {first.cell}: {first.what}" if first.cell else first.what

@@ -2,6 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+
+from notebook_reports.project.printable import printable
 
 LINES = 15
 
@@ -31,9 +34,9 @@ class Failure:
         return [self.line, *(f"    {m}" for m in self.more)]
 
 
-def summary(failures: Sequence[Failure], limit: int = LINES) -> list[str]:
+def summary(failures: Sequence[Failure], file: Path = Path(".cache/failures.txt"), limit: int = LINES) -> list[str]:
     """At most ``limit`` lines of a bearable length: all details where they fit, else one line each, else the first and
-    how many more.
+    how many more, which are in the file.
 
     Every command that repeats a failure is named once, at the end.
     """
@@ -49,8 +52,13 @@ def summary(failures: Sequence[Failure], limit: int = LINES) -> list[str]:
     short = [_cut(f.line) for f in failures]
     if len(short) > room:
         rest = len(short) - (room - 1)
-        short = [*short[: room - 1], f"and {rest} more: all of them in .cache/failures.txt"]
+        short = [*short[: room - 1], f"and {rest} more: all of them in {_near(file)}"]
     return [*head, *short, *tail]
+
+
+def _near(path: Path) -> str:
+    """A path as one would type it here."""
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def _cut(line: str, width: int = 240) -> str:
@@ -60,12 +68,18 @@ def _cut(line: str, width: int = 240) -> str:
 def everything(failures: Sequence[Failure]) -> str:
     """The whole list, without a limit, for the file."""
     blocks = ["\n".join([*f.lines(), *([f"    {f.repeat}"] if f.repeat else [])]) for f in failures]
-    return "\n\n".join(blocks) + "\n" if blocks else ""
+    return printable("\n\n".join(blocks) + "\n") if blocks else ""
 
 
 def _together(repeats: list[str]) -> str:
+    """All of them: the builds of notebooks that differ in nothing else as one command, the others one after another."""
     start = "loopbook build "
-    plain = [r for r in repeats if r.startswith(start) and " -" not in r]
-    if len(repeats) == 1 or plain != repeats:
-        return repeats[0] if len(repeats) == 1 else "; ".join(repeats[:3])
-    return start + " ".join(r.removeprefix(start) for r in plain[:6])
+    plain: dict[str, list[str]] = {}
+    others = []
+    for command in repeats:
+        notebook, _, options = command.removeprefix(start).partition(" -")
+        if command.startswith(start) and notebook and " " not in notebook and "-p " not in f"-{options}":
+            plain.setdefault(f" -{options}" if options else "", []).append(notebook)
+        else:
+            others.append(command)
+    return "; ".join([*(f"{start}{' '.join(names)}{options}" for options, names in plain.items()), *others])

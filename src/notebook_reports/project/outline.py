@@ -9,12 +9,12 @@ title = "A report on the PID controller"
 about = "How it works, how it is programmed, how it is tuned."
 """
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from notebook_reports.project.project import Project, UsageError
+from notebook_reports.project.toml import TomlError, read_toml, tables
 
 FILE = "book.toml"
 Entry = Mapping[str, Any]
@@ -53,13 +53,17 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
     path = project.notebooks_folder / FILE
     where = f"notebooks/{FILE}"
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-        named = [(p["folder"], p["title"], p.get("about", "")) for p in content["part"]]
+        content = read_toml(path, where)
+        named = [(p["folder"], p["title"], p.get("about", "")) for p in tables(content, "part", where)]
         title, subtitle = content["title"], content.get("subtitle", "")
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{where}: {error}") from None
+    except TomlError as error:
+        raise UsageError(str(error)) from None
     except KeyError as error:
         raise UsageError(f"{where}: {error.args[0]} is missing") from None
+    if not named:
+        raise UsageError(f"{where}: part is missing")
+    if not all(isinstance(word, str) for word in (title, subtitle, *(w for part in named for w in part))):
+        raise UsageError(f"{where}: title, subtitle, and of each part folder, title and about are texts in quotes")
     folders = [folder for folder, _, _ in named]
     wrong = [f"notebooks/{e['id']}.ipynb is in no part of {where}" for e in entries if e["folder"] not in folders]
     wrong += [f"{where}: two parts for {folder}" for folder in {f for f in folders if folders.count(f) > 1}]

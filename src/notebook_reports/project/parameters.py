@@ -16,6 +16,7 @@ import difflib
 import io
 import keyword
 import math
+import re
 import tokenize
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,9 +24,16 @@ from typing import Any
 
 from notebook_reports.project.project import UsageError
 from notebook_reports.project.ranges import Range, read_range
-from notebook_reports.project.source import Cell, Source
+from notebook_reports.project.source import Source, SourceCell
 
 SIMPLE = {"bool": bool, "int": int, "float": float, "str": str}
+
+
+_NUMBER = {
+    "int": re.compile(r"[+-]?(?:0|[1-9][0-9]*)"),
+    "float": re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf|nan)", re.ASCII),
+}
+"""A number on the command line: as one writes it, without underscores; an integer without zeros before it."""
 
 
 class ParameterError(UsageError):
@@ -37,7 +45,7 @@ class ParameterError(UsageError):
 
 
 @dataclass(frozen=True)
-class Parameter:
+class NotebookParameter:
     """One parameter. type: as annotated, ``float``, ``list[float]``, ``str | None``. comment: unit and range."""
 
     name: str
@@ -59,7 +67,7 @@ class Parameter:
         return value
 
 
-def read_parameters(source: Source) -> dict[str, Parameter]:
+def read_parameters(source: Source) -> dict[str, NotebookParameter]:
     """The parameters of a notebook by name; none where no cell is tagged.
 
     Raises ParameterError where two cells are tagged or a statement is not a literal of its annotated type.
@@ -104,31 +112,31 @@ def assign(source: Source, given: Mapping[str, Any] | Sequence[tuple[str, str]])
     return values
 
 
-def _statements(cell: Cell) -> list[Parameter]:
+def _statements(cell: SourceCell) -> list[NotebookParameter]:
     where = f"cell {cell.number} (parameters)"
     try:
         tree = ast.parse(cell.text)
     except SyntaxError as error:
         raise ParameterError(f"{where}, line {error.lineno}: {error.msg}") from None
+    except (RecursionError, MemoryError, ValueError) as error:
+        raise ParameterError(f"{where}: cannot be read ({str(error) or 'nested too deeply'})") from None
     comments = _comments(cell.text)
-    found: dict[str, Parameter] = {}
+    found: dict[str, NotebookParameter] = {}
     for node in tree.body:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             continue
-        target = node.target if isinstance(node, ast.AnnAssign) else None
-        if isinstance(node, ast.Assign) and len(node.targets) == 1:
-            target = node.targets[0]
+        target, value = _assigned(node)
         line = f"{where}, line {node.lineno}"
-        if not isinstance(target, ast.Name) or node.value is None:
+        if not isinstance(target, ast.Name) or value is None:
             raise ParameterError(
                 f"{line}: `{ast.unparse(node)}` is not of the form `name: type = value  # unit, range`"
             )
         name = target.id
         try:
-            default = ast.literal_eval(node.value)
+            default = ast.literal_eval(value)
         except ValueError:
             raise ParameterError(
-                f"{line}: {name} = {ast.unparse(node.value)} is derived; another value for what it derives from would "
+                f"{line}: {name} = {ast.unparse(value)} is derived; another value for what it derives from would "
                 "not reach it: move it to the next cell",
                 name,
             ) from None
@@ -137,8 +145,8 @@ def _statements(cell: Cell) -> list[Parameter]:
         kind = ast.unparse(node.annotation) if isinstance(node, ast.AnnAssign) else _infer(default, line, name)
         comment = comments.get(node.end_lineno or node.lineno) or comments.get(node.lineno, "")
         try:
-            parameter = Parameter(name, kind.strip("'\""), default, comment, read_range(comment))
-            found[name] = Parameter(name, parameter.type, parameter.check(default), comment, parameter.range)
+            parameter = NotebookParameter(name, kind.strip("'\""), default, comment, read_range(comment))
+            found[name] = NotebookParameter(name, parameter.type, parameter.check(default), comment, parameter.range)
         except ParameterError as error:
             raise ParameterError(f"{line}: {error}", name) from None
     return list(found.values())
@@ -181,14 +189,16 @@ def _parse(text: str, kind: str, name: str) -> Any:
             raise _wrong(name, text, kind, ": write true or false")
         return text.strip().lower() == "true"
     if kind in ("int", "float"):
+        if not _NUMBER[kind].fullmatch(text.strip()):
+            raise _wrong(name, text, kind)
         try:
             return SIMPLE[kind](text)
         except ValueError:
-            raise _wrong(name, text, kind) from None
+            raise _wrong(name, text, kind, ": it has too many digits") from None
     if kind.startswith(("list[", "tuple[")):
         try:
             value = ast.literal_eval(text if text.strip()[:1] in ("[", "(") else f"[{text}]")
-        except (ValueError, SyntaxError):
+        except (ValueError, SyntaxError, RecursionError, MemoryError, TypeError):
             raise _wrong(name, text, kind, ": write values with commas between them") from None
         return tuple(value) if kind.startswith("tuple") else list(value)
     raise ParameterError(f"{name} has the type {kind}; known are {', '.join(SIMPLE)}, lists and tuples of them", name)
@@ -210,6 +220,15 @@ def _typed(value: Any, kind: str, name: str) -> Any:
         value = float(value)
     if type(value) is not SIMPLE[kind]:
         raise _wrong(name, value, kind, f" but {_article(type(value).__name__)}")
-    if kind == "float" and not math.isfinite(value):
+    if isinstance(value, float) and not math.isfinite(value):
         raise _wrong(name, value, kind, " that can be computed with")
     return value
+
+
+def _assigned(node: ast.stmt) -> tuple[ast.expr | None, ast.expr | None]:
+    """(target, value) of an assignment to one target, (None, None) of anything else."""
+    if isinstance(node, ast.AnnAssign):
+        return node.target, node.value
+    if isinstance(node, ast.Assign) and len(node.targets) == 1:
+        return node.targets[0], node.value
+    return None, None

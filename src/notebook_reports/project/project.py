@@ -1,21 +1,23 @@
 """Where a project keeps things: its notebooks, its reports, its cache. Light: nothing here imports Jupyter."""
 
-import os
-import tempfile
-import tomllib
+import difflib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from notebook_reports.errors import PressError
+from notebook_reports.project.home import owns, private_cache
+from notebook_reports.project.toml import TomlError, read_toml, tables
 
 BOOK = "book.toml"
 FORMATS = ("pdf", "html", "ipynb")
 
 
-class UsageError(Exception):
+class UsageError(PressError):
     """What was asked for cannot be done as asked: an unknown notebook, a wrong parameter. Exit code 2."""
 
 
-class EnvironmentProblem(Exception):
+class EnvironmentProblem(PressError):
     """The machine does not let us work: an unwritable folder, a full disk, a missing package. Exit code 3."""
 
 
@@ -32,6 +34,11 @@ class Notebook:
     own: bool = True
 
     @property
+    def root(self) -> Path:
+        """The folder of which its reports may show files: the project's, of a notebook from elsewhere its own."""
+        return self.path.parents[self.id.count("/") + 1] if self.own else self.path.parent
+
+    @property
     def folder(self) -> str:
         """The part of the id before the name, or "": the document that the notebook belongs to."""
         return self.id.rpartition("/")[0]
@@ -39,10 +46,16 @@ class Notebook:
 
 @dataclass(frozen=True)
 class Project:
-    """A folder with ``notebooks/``; everything built goes to ``reports/``, everything remembered to ``cache``."""
+    """A folder with ``notebooks/``; everything built goes to ``reports/``, everything remembered to ``cache``.
+
+    src: the folder of the project's own code, first on the path of its notebooks; None where none is to be used.
+    beside: may a notebook import what lies beside it?
+    """
 
     root: Path
     cache: Path
+    src: Path | None = None
+    beside: bool = True
 
     @property
     def notebooks_folder(self) -> Path:
@@ -55,11 +68,11 @@ class Project:
     def book(self) -> dict[str, Any]:
         """What notebooks/book.toml says, {} where there is none. Raises UsageError where it cannot be read."""
         try:
-            return tomllib.loads((self.notebooks_folder / BOOK).read_text(encoding="utf-8"))
+            return read_toml(self.notebooks_folder / BOOK, f"notebooks/{BOOK}")
         except FileNotFoundError:
             return {}
-        except (OSError, ValueError) as error:
-            raise UsageError(f"notebooks/{BOOK}: {error}") from None
+        except TomlError as error:
+            raise UsageError(str(error)) from None
 
     @property
     def documents(self) -> Path:
@@ -68,7 +81,10 @@ class Project:
 
     def parts(self) -> list[str]:
         """The folders of notebooks in the order of the book."""
-        return [str(part.get("folder")) for part in self.book().get("part", ())]
+        try:
+            return [str(part.get("folder")) for part in tables(self.book(), "part", f"notebooks/{BOOK}")]
+        except TomlError as error:
+            raise UsageError(str(error)) from None
 
     def notebooks(self) -> list[Notebook]:
         """Every notebook of the project, sorted by id. Raises UsageError where there is none."""
@@ -115,8 +131,6 @@ class Project:
         numbered = [n for n in everything if n.id.startswith(name + "_")]
         if len(numbered) == 1:
             return numbered
-        import difflib
-
         ids = [n.id for n in everything]
         near = [n.id for n in numbered] or difflib.get_close_matches(name, ids, n=3, cutoff=0.4)
         hint = f"; did you mean {' or '.join(near)}?" if near else "; `loopbook list` shows them"
@@ -124,19 +138,32 @@ class Project:
 
 
 def project_at(root: Path) -> Project:
-    """The project in a folder."""
+    """The project in a folder that was named: whoever owns it, it is trusted."""
     root = root.resolve()
-    return Project(root, root / ".cache")
+    src = root / "src"
+    return Project(root, root / ".cache", src if src.is_dir() else None)
 
 
 def find_project(start: Path | None = None) -> Project:
     """The nearest folder upwards that has ``notebooks/``.
 
-    Where none has, the folder itself, with a cache among the temporary files: for notebooks that belong nowhere.
+    Where none has, the folder itself, without code of its own and with a private cache: for notebooks that belong
+    nowhere. Raises UsageError for a project of another user, whose notebooks and modules would run.
     """
     start = (start or Path.cwd()).resolve()
     for folder in (start, *start.parents):
-        if (folder / "notebooks").is_dir():
+        notebooks = folder / "notebooks"
+        if notebooks.is_dir():
+            foreign = [path for path in (folder, notebooks) if not owns(path)]
+            if foreign:
+                raise UsageError(
+                    f"{foreign[0]} belongs to another user, whose code its notebooks would run; "
+                    f"if you trust it, name it: loopbook --root {folder} ..."
+                )
             return project_at(folder)
-    user = os.getuid() if hasattr(os, "getuid") else 0
-    return Project(start, Path(tempfile.gettempdir()) / f"loopbook-{user}")
+    return no_project(start)
+
+
+def no_project(folder: Path, beside: bool = True) -> Project:
+    """A folder that is no project: nothing in it is imported, its cache is private. beside: see `Project`."""
+    return Project(folder, private_cache(), None, beside)

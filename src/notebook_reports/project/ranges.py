@@ -55,8 +55,8 @@ def read_range(comment: str) -> Range:
     """
     if found := _INTERVAL.search(comment):
         low, high = ">=" if found[1] == "[" else ">", "<=" if found[4] == "]" else "<"
-        bounds = ((low, _number(found[2])), (high, _number(found[3])))
-        return Range(found[0], tuple(b for b in bounds if abs(b[1]) != float("inf")))
+        limits = ((low, _number(found[2])), (high, _number(found[3])))
+        return Range(found[0], tuple(b for b in limits if abs(b[1]) != float("inf")))
     if found := _CHAIN.search(comment):
         low, high = (_PLAIN.get(sign, sign) for sign in found.group(2, 3))
         return Range(found[0], ((low.replace("<", ">"), _number(found[1])), (high, _number(found[4]))))

@@ -1,31 +1,31 @@
 """The canonical form of an executed notebook: the same content gives the same bytes, on every run and machine.
 
 Dropped: times, durations, paths of the run, versions of the kernel. Made regular: the order of streams within a cell,
-addresses of objects, names of temporary files, paths of the project and of the environment.
+and what a machine writes and another would write otherwise, see `masks`.
 """
 
 import json
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from notebook_reports.project.source import INJECTED
+from notebook_reports.run.masks import Masks
 
-_ADDRESS = re.compile(r"\b0x[0-9a-f]{8,16}\b", re.IGNORECASE)
-_CELL_FILE = re.compile(r"ipykernel_\d+[/\\]\d+\.py")
 _ANSI = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
-_TEXT = ("text/plain", "text/html", "text/markdown", "text/latex")
+_TEXT = {"text/plain": False, "text/html": True, "text/markdown": True, "text/latex": False}
+"""Forms that are text to be read, and whether they are markup."""
 
 
-def canonical(notebook: Any, root: Path, ids: Sequence[str]) -> dict[str, Any]:
+def canonical(notebook: Any, root: Path, ids: Sequence[str], folder: Path | None = None) -> dict[str, Any]:
     """The canonical form, as plain data.
 
-    notebook: an executed notebook (nbformat's node or its dictionary). root: the project's folder, cut off paths.
-    ids: of the cells as written, in order; a notebook without ids would else get random ones.
+    notebook: an executed notebook (nbformat's node or its dictionary). root: the project's folder, folder: that of a
+    notebook from elsewhere; both are cut off paths. ids: of the cells as written, in order; a notebook without ids
+    would else get random ones.
     """
-    mask = _mask(root)
+    masks = Masks(root, folder)
     names = iter(ids)
     cells = []
     for cell in json.loads(json.dumps(notebook["cells"])):
@@ -38,7 +38,7 @@ def canonical(notebook: Any, root: Path, ids: Sequence[str]) -> dict[str, Any]:
             kept["attachments"] = cell["attachments"]
         if cell["cell_type"] == "code":
             kept["execution_count"] = cell.get("execution_count")
-            kept["outputs"] = [_output(o, mask) for o in _streams(cell.get("outputs", []))]
+            kept["outputs"] = [_output(o, masks) for o in _streams(cell.get("outputs", []))]
         cells.append(kept)
     metadata = {k: v for k, v in notebook["metadata"].items() if k not in ("papermill", "widgets")}
     metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
@@ -93,37 +93,22 @@ def _streams(outputs: list[dict]) -> list[dict]:
     return result
 
 
-def _output(output: dict, mask) -> dict:
+def _output(output: dict, masks: Masks) -> dict:
     kind = output["output_type"]
     if kind == "stream":
-        return {**output, "text": mask(output["text"])}
+        return {**output, "text": masks.text(output["text"])}
     if kind == "error":
-        trace = [mask(_ANSI.sub("", line)) for line in output["traceback"]]
-        return {**output, "evalue": mask(output["evalue"]), "traceback": trace}
-    data = {k: mask(_join(v)) if k in _TEXT else v for k, v in output["data"].items()}
-    data = {k: _join(v) if isinstance(v, list) and not k.endswith("json") else v for k, v in data.items()}
+        trace = [masks.text(_ANSI.sub("", line)) for line in output["traceback"]]
+        return {**output, "evalue": masks.text(output["evalue"]), "traceback": trace}
+    data = {mime: _form(mime, content, masks) for mime, content in output["data"].items()}
     return {k: v for k, v in {**output, "data": data}.items() if k != "transient"}
 
 
-def _name_cells(text: str) -> str:
-    """The temporary file of a cell, with the folders before it, becomes ``<cell>``; one pass, however long a line."""
-    pieces, end = [], 0
-    for found in _CELL_FILE.finditer(text):
-        start = found.start()
-        while start > end and text[start - 1] not in " \t\n\"'<>":
-            start -= 1
-        pieces += [text[end:start], "<cell>"]
-        end = found.end()
-    return "".join([*pieces, text[end:]])
-
-
-def _mask(root: Path):
-    places = [(f"{sys.prefix}/", ""), (f"{sys.base_prefix}/", ""), (f"{root}/", ""), (str(Path.home()), "~")]
-
-    def mask(text: str) -> str:
-        text = _name_cells(text)
-        for place, instead in places:
-            text = text.replace(place, instead)
-        return _ADDRESS.sub("0x…", text)
-
-    return mask
+def _form(mime: str, content: Any, masks: Masks) -> Any:
+    """One form of an output: text to be read masked as text, a drawing and data of their folders, the rest as it is."""
+    if mime.endswith("json"):
+        return masks.data(content)
+    text = _join(content) if isinstance(content, list) else content
+    if mime in _TEXT:
+        return masks.text(text, markup=_TEXT[mime])
+    return masks.paths(text) if mime == "image/svg+xml" and isinstance(text, str) else text

@@ -1,29 +1,32 @@
-"""What the kernel loads before the first cell: failing shell commands fail, and what the notebook reads is noted.
+"""What the kernel loads before the first cell: failing shell commands fail, warnings and tracebacks do not depend on
+the machine, and what the notebook reads is noted, see `watching`.
 
 An IPython extension. It imports nothing that a notebook does not have anyway, and adds no name to the notebook.
 """
 
 import os
 import subprocess
-import sys
+import warnings
+from collections.abc import Callable
+from typing import Any
 
-WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
-WRITTEN: set[str] = set()
-READ: dict[str, str] = {}
-"""Files opened for reading and folders listed below the project's root, by path: "file" or "folder"."""
+from notebook_reports.run import watching
+from notebook_reports.run.callers import installed
 
 
-def load_ipython_extension(shell) -> None:
+def load_ipython_extension(shell: Any) -> None:
     """Called by IPython at kernel start."""
     shell.system = _failing_system(shell, shell.system)
     shell.getoutput = _failing_getoutput(shell)
+    _show_the_same_everywhere()
     root = os.environ.get("LOOPBOOK_ROOT", "")
     if root:
-        sys.addaudithook(_noting(root))
+        watching.begin(shell, root)
 
 
-def _failing_system(shell, original):
-    def system(command):
+def _failing_system(shell: Any, original: Callable[[str], object]) -> Callable[[str], None]:
+    def system(command: str) -> None:
+        watching.program(command)
         original(command)
         code = shell.user_ns.get("_exit_code", 0)
         if code:
@@ -32,11 +35,12 @@ def _failing_system(shell, original):
     return system
 
 
-def _failing_getoutput(shell):
+def _failing_getoutput(shell: Any) -> Callable[..., Any]:
     from IPython.utils.text import LSString, SList
 
-    def getoutput(command, split=True, depth=0):
+    def getoutput(command: str, split: bool = True, depth: int = 0) -> Any:
         command = shell.var_expand(command, depth=depth + 1)
+        watching.program(command)
         done = subprocess.run(command, shell=True, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode:
             raise subprocess.CalledProcessError(done.returncode, command, done.stdout)
@@ -45,38 +49,21 @@ def _failing_getoutput(shell):
     return getoutput
 
 
-def _noting(root):
-    skipped = tuple(os.path.join(root, name) + os.sep for name in (".cache", ".venv", ".git"))
-    skipped = (*skipped, sys.prefix + os.sep)
-    listing = ("os.listdir", "os.scandir")
+def _show_the_same_everywhere() -> None:
+    """A warning of a library names the library, not its file and line; a traceback names files whole, so that the
+    canonical form knows them: IPython writes ``~`` for a home, whatever that is."""
+    from IPython.utils import path
 
-    def hook(event, args):
-        if event != "open" and event not in listing:
-            return
-        try:
-            path = os.fspath(args[0])
-        except TypeError:
-            return
-        if not isinstance(path, str):
-            return
-        path = os.path.abspath(path)
-        if not path.startswith(root + os.sep) or path.startswith(skipped):
-            return
-        if sys._getframe(1).f_code.co_filename.startswith("<frozen importlib"):
-            return  # what is imported is known from sys.modules
-        if event in listing:
-            READ[path] = "folder"
-        elif set(args[1] or "") & set("wax+") or (args[2] or 0) & WRITING:
-            WRITTEN.add(path)
-        else:
-            READ.setdefault(path, "file")
+    path.compress_user = str
+    told = warnings.formatwarning
 
-    return hook
+    def formatwarning(
+        message: Warning | str, category: type[Warning], filename: str, lineno: int, line: str | None = None
+    ) -> str:
+        if not installed(filename):
+            return told(message, category, filename, lineno, line)
+        parts = filename.replace("\\", "/").rpartition("site-packages/")[2].split("/")
+        library = parts[0] if len(parts) > 1 and parts[0] else os.path.splitext(parts[-1])[0]
+        return f"{category.__name__}: {message} (from {library})\n"
 
-
-def report() -> dict[str, object]:
-    """What this kernel depended on: modules by file, and what `READ` holds without the files that it wrote itself."""
-    files = {getattr(m, "__file__", None) for m in list(sys.modules.values())}
-    installed = (sys.prefix + os.sep, sys.base_prefix + os.sep, os.path.dirname(os.__file__) + os.sep)
-    modules = sorted(f for f in files if isinstance(f, str) and f.endswith(".py") and not f.startswith(installed))
-    return {"modules": modules, "read": {k: v for k, v in READ.items() if k not in WRITTEN}}
+    warnings.formatwarning = formatwarning

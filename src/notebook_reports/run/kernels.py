@@ -10,14 +10,13 @@ import json
 import math
 import os
 import shutil
+import signal
 import sys
-import tempfile
 import threading
 import time
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from queue import Empty
 from typing import Any
 
@@ -28,6 +27,10 @@ from jupyter_client.provisioning.local_provisioner import LocalProvisioner
 from papermill.clientwrap import PapermillNotebookClient
 from traitlets import Type
 
+from notebook_reports.errors import PressError
+from notebook_reports.project import runtime
+from notebook_reports.run import leftovers
+from notebook_reports.run.surroundings import of_one_kernel
 from notebook_reports.run.warm import Warm
 
 TRANSPORT = "tcp" if sys.platform == "win32" else "ipc"
@@ -39,8 +42,12 @@ _lock = threading.Lock()
 _stopping = threading.Event()
 
 
-class Stopped(Exception):
+class Stopped(PressError):
     """The build was interrupted; no kernel is started any more."""
+
+
+class NoAccount(PressError):
+    """A kernel ran to its end and cannot say what it read: its report could not be known to be up to date."""
 
 
 class WarmProvisioner(LocalProvisioner):
@@ -95,9 +102,9 @@ class PrivateKernelManager(AsyncKernelManager):
     client_factory = Type(ReadyClient)
 
     def __init__(self, **kwargs: Any):
-        # Short, since the path of a socket is limited to about a hundred bytes.
-        base = None if len(tempfile.gettempdir()) < 60 else "/tmp"
-        self.private = Path(tempfile.mkdtemp(prefix="lb", dir=base))
+        self.private = runtime.make()
+        self.kernel: int | None = None
+        self.left: list[str] = []
         kwargs.update(transport=TRANSPORT, connection_file=str(self.private / "c.json"))
         if TRANSPORT == "ipc":
             kwargs["ip"] = str(self.private / "k")
@@ -105,7 +112,7 @@ class PrivateKernelManager(AsyncKernelManager):
 
     @property
     def kernel_spec(self) -> KernelSpec:
-        command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
+        command = [sys.executable, "-P", "-m", "ipykernel_launcher", "-f", "{connection_file}"]
         return KernelSpec(argv=command, display_name="Python 3", language="python", name="python3")
 
     async def _async_pre_start_kernel(self, **kwargs: Any) -> Any:
@@ -122,7 +129,9 @@ class PrivateKernelManager(AsyncKernelManager):
             if _stopping.is_set():
                 raise Stopped
             _alive.add(self)
+        kwargs["env"] = {**(kwargs.get("env") or os.environ), **of_one_kernel(self.private)}
         await super()._async_start_kernel(**kwargs)
+        self.kernel = getattr(self.provisioner, "pid", None)
 
     start_kernel = _async_start_kernel
 
@@ -133,15 +142,17 @@ class PrivateKernelManager(AsyncKernelManager):
         await super()._async_cleanup_resources(restart=restart)
         with _lock:
             _alive.discard(self)
+        self.left += await asyncio.to_thread(leftovers.end, self.private, self.kernel)
         shutil.rmtree(self.private, ignore_errors=True)
 
     cleanup_resources = _async_cleanup_resources
 
 
 class Client(PapermillNotebookClient):
-    """papermill's client on a private kernel that is not waited for at the end."""
+    """papermill's client on a private kernel that is not waited for at the end. beside: may the notebook import what
+    lies in its folder?"""
 
-    def __init__(self, nb_man: Any, **kwargs: Any):
+    def __init__(self, nb_man: Any, beside: bool = True, **kwargs: Any):
         kwargs.update(
             kernel_manager_class=PrivateKernelManager,
             shutdown_kernel="immediate",
@@ -149,27 +160,41 @@ class Client(PapermillNotebookClient):
                 "--ext=notebook_reports.run.kernel_side",
                 "--HistoryManager.enabled=False",
                 "--InlineBackend.figure_formats=svg",
+                f"--InteractiveShellApp.ignore_cwd={not beside}",
             ],
             on_cell_start=self._start,
         )
         self.running = 0
         self.depends: dict[str, Any] = {}
         self.last_words = ""
+        self.manager: PrivateKernelManager | None = None
         super().__init__(nb_man, **kwargs)
+
+    def create_kernel_manager(self) -> Any:
+        self.manager = super().create_kernel_manager()
+        return self.manager
+
+    @property
+    def left(self) -> list[str]:
+        """The processes that the notebook left running; they were ended."""
+        return self.manager.left if self.manager else []
 
     def _start(self, cell: Any, cell_index: int) -> None:
         self.running = cell_index
 
     def papermill_execute_cells(self) -> None:
-        """Run the cells, then ask the kernel what it read; see `kernel_side.report`."""
-        super().papermill_execute_cells()
-        ask = "__import__('json').dumps(__import__('sys').modules['notebook_reports.run.kernel_side'].report())"
+        """Run the cells, then ask the kernel what it read; see `watching.report`."""
+        try:
+            super().papermill_execute_cells()
+        finally:
+            if self.manager is not None:  # before the kernel ends, and with it some of them unnamed
+                self.manager.left += leftovers.end(self.manager.private, self.manager.kernel)
+        ask = "__import__('json').dumps(__import__('sys').modules['notebook_reports.run.watching'].report())"
         message = self.kc.execute("", silent=True, store_history=False, user_expressions={"report": ask})
         answer = self.wait_for_reply(message)["content"].get("user_expressions", {}).get("report", {})
-        if answer.get("status") == "error":  # without it a later build would take every file for unchanged
-            raise RuntimeError(f"the kernel cannot say what it read: {answer['ename']}: {answer['evalue']}")
-        if answer:
-            self.depends = json.loads(ast.literal_eval(answer["data"]["text/plain"]))
+        if answer.get("status") != "ok":
+            raise NoAccount(f"the kernel does not say what it read: {answer.get('evalue', 'no answer')}")
+        self.depends = json.loads(ast.literal_eval(answer["data"]["text/plain"]))
 
 
 @contextmanager
@@ -186,6 +211,12 @@ def forked_from(warm: Warm | None) -> Iterator[None]:
             warm.close()
 
 
+def lost_its_parent() -> bool:
+    """Did the process that kernels are forked from end by itself? Its kernels end with it, through no fault of a
+    notebook; from now on none is forked."""
+    return _warm is not None and not _warm.alive()
+
+
 def stopping() -> bool:
     """Was the build interrupted?"""
     return _stopping.is_set()
@@ -193,11 +224,11 @@ def stopping() -> bool:
 
 def kill_all() -> None:
     """End every kernel now and start no other: for Ctrl-C. The threads that wait for them see a dead kernel."""
-    import signal
-
     with _lock:
         _stopping.set()
         managers = list(_alive)
+    if _warm is not None:
+        _warm.kill()
     for manager in managers:
         process = getattr(manager.provisioner, "process", None)
         if process is None or process.poll() is not None:
@@ -206,3 +237,4 @@ def kill_all() -> None:
             os.killpg(process.pid, signal.SIGKILL)
         except (AttributeError, OSError):
             process.kill()
+        leftovers.end(manager.private, process.pid)

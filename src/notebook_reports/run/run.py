@@ -4,6 +4,7 @@ papermill's own record is not believed: it calls a notebook completed whose kern
 is good when every cell that runs was run and answered, and none raised but those that say they do.
 """
 
+import copy
 import logging
 import re
 import subprocess
@@ -40,13 +41,23 @@ logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # it tells of tasks tha
 @dataclass(frozen=True)
 class Run:
     """One run. content: the canonical executed notebook, up to the failure where there was one. depends: what the
-    kernel imported and read, see `kernel_side.report`. warnings: (cell, text) for all that went to stderr."""
+    kernel imported and read, see `watching.report`. warnings: (cell, text) for all that went to stderr."""
 
     content: dict[str, Any]
     seconds: float
     failure: Failure | None = None
     warnings: list[tuple[int, str]] = field(default_factory=list)
     depends: dict[str, Any] = field(default_factory=dict)
+
+    def cell_of(self, count: int) -> int:
+        """The position, from 1, of one of the cells that ran; 0 where there is none. count: from 1, in order."""
+        number = ran = 0
+        for cell in self.content["cells"]:
+            number += INJECTED not in cell["metadata"].get("tags", ())
+            ran += cell.get("execution_count") is not None
+            if ran == count and count:
+                return number
+        return 0
 
 
 class _Translator(PythonTranslator):
@@ -67,7 +78,12 @@ class _Engine(Engine):
     @classmethod
     def execute_managed_notebook(cls, nb_man: Any, kernel_name: str, **kwargs: Any) -> None:
         client = kernels.Client(
-            nb_man, kernel_name=kernel_name, timeout=kwargs["timeout"], startup_timeout=60, log=_QUIET
+            nb_man,
+            beside=kwargs["beside"],
+            kernel_name=kernel_name,
+            timeout=kwargs["timeout"],
+            startup_timeout=60,
+            log=_QUIET,
         )
         kwargs["clients"].append(client)
         with tempfile.TemporaryFile() as said:
@@ -91,16 +107,34 @@ def run(
     one cell. Raises `kernels.Stopped` where the build was interrupted.
     """
     started = time.monotonic()
-    notebook = load_notebook_node(nbformat.from_dict(source.content))  # as it was read, whatever the file says now
-    if parameters:
-        notebook.metadata.kernelspec = {"name": "loopbook", "language": "python", "display_name": "loopbook"}
-        notebook = parameterize_notebook(notebook, dict(parameters), kernel_name="loopbook", language="python")
+    notebook = _loaded(source, parameters)
     error, client = _execute(notebook, source.path.parent, project, timeout)
+    if isinstance(error, DeadKernelError) and kernels.lost_its_parent() and not kernels.stopping():
+        notebook = _loaded(source, parameters)
+        error, client = _execute(notebook, source.path.parent, project, timeout)
     if kernels.stopping():
         raise kernels.Stopped
-    content = canonical(notebook, project.root, [c.id for c in source.cells])
+    content = canonical(notebook, project.root, [c.id for c in source.cells], _elsewhere(source, project))
     failure = _failure(content, name, error, client, timeout)
-    return Run(content, time.monotonic() - started, failure, _warnings(content), client.depends if client else {})
+    depends = client.depends if client else {}
+    warnings = _warnings(content) + [
+        (0, f"left running, and ended: {command}") for command in (client.left if client else ())
+    ]
+    return Run(content, time.monotonic() - started, failure, warnings, depends)
+
+
+def _loaded(source: Source, parameters: Mapping[str, Any] | None) -> nbformat.NotebookNode:
+    """The notebook for papermill, as it was read, whatever the file says now, with its parameters."""
+    notebook = load_notebook_node(nbformat.from_dict(copy.deepcopy(source.content)))
+    if not parameters:
+        return notebook
+    notebook.metadata.kernelspec = {"name": "loopbook", "language": "python", "display_name": "loopbook"}
+    return parameterize_notebook(notebook, dict(parameters), kernel_name="loopbook", language="python")
+
+
+def _elsewhere(source: Source, project: Project) -> Path | None:
+    folder = source.path.parent
+    return None if folder.is_relative_to(project.root) else folder
 
 
 def _execute(notebook: nbformat.NotebookNode, folder: Path, project: Project, timeout: float):
@@ -111,7 +145,8 @@ def _execute(notebook: nbformat.NotebookNode, folder: Path, project: Project, ti
             "clients": clients,
             "timeout": int(timeout),
             "folder": str(folder),
-            "env": environment(project.root, project.cache),
+            "env": environment(project),
+            "beside": project.beside,
         }
         try:
             papermill_engines.execute_notebook_with_engine(

@@ -50,7 +50,7 @@ class Forked:
             self.returncode = 1
         return self.returncode
 
-    def __del__(self):
+    def __del__(self) -> None:
         if self._fd >= 0:
             os.close(self._fd)
 
@@ -72,7 +72,7 @@ class Warm:
         self._lock = threading.Lock()
         self._ready: bool | None = None
         ours, theirs = socket.socketpair()
-        command = [sys.executable, "-m", "notebook_reports.run.warm_side", *[ready] * bool(ready)]
+        command = [sys.executable, "-P", "-m", "notebook_reports.run.warm_side", *[ready] * bool(ready)]
         with theirs:
             self._process = subprocess.Popen(
                 command,
@@ -99,8 +99,16 @@ class Warm:
                 self._ready = False
                 return None
 
+    def alive(self) -> bool:
+        """Does it still run?"""
+        return self._process.poll() is None
+
+    def kill(self) -> None:
+        """End it now; one who waits for a kernel of it waits no more."""
+        self._process.kill()
+
     def close(self) -> None:
         """End it; kernels that still run end with it."""
-        self._socket.close()
         self._process.kill()
         self._process.wait()
+        self._socket.close()

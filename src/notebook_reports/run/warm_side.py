@@ -14,6 +14,8 @@ import socket
 import sys
 import warnings
 
+from notebook_reports.run import variables
+
 PRELOADED = (
     "ipykernel.kernelapp",
     "ipykernel.ipkernel",
@@ -38,6 +40,7 @@ def preload(ready: str = "") -> list[str]:
 
     Returns what speaks against forking: the warnings that a notebook would have shown, or why `ready` failed.
     """
+    variables.watch()
     os.environ["JPY_PARENT_PID"] = str(os.getpid())  # read when ipykernel is imported: kernels end with this process
     with warnings.catch_warnings(record=True) as said:
         for name in PRELOADED:
@@ -80,8 +83,7 @@ def _become(order: dict, errors: int) -> None:
     for target, file in ((0, nothing), (1, nothing), (2, errors)):
         os.dup2(file, target)
     os.chdir(order["cwd"])
-    os.environ.clear()
-    os.environ.update(order["env"])
+    variables.take_over(order["env"])
     launcher = importlib.util.find_spec("ipykernel_launcher")
     sys.argv = [launcher.origin if launcher else order["argv"][0], *order["argv"][1:]]
     numpy = sys.modules.get("numpy")
@@ -90,8 +92,6 @@ def _become(order: dict, errors: int) -> None:
 
 
 def main() -> None:
-    if sys.path[0] in ("", os.getcwd()):
-        del sys.path[0]
     requests = socket.socket(fileno=os.dup(0))
     said = preload(*sys.argv[1:2])
     requests.sendall(json.dumps({"warnings": said}).encode())

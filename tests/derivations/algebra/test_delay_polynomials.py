@@ -19,6 +19,7 @@ exact = st.fractions(max_denominator=50).map(lambda f: sp.Rational(f.numerator, 
 
 
 @given(st.lists(exact, max_size=6))
+@pytest.mark.long
 def test_there_and_back(values):
     found = coefficients(polynomial(values))
     assert found == values[: len(found)]

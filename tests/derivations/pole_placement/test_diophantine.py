@@ -49,6 +49,7 @@ def test_the_sylvester_system_of_the_appendix(tanks):
     assert (tanks.right_side - sp.Matrix([1 - a1 - 3 * q, a1 - a2 + 3 * q**2, a2 - q**3, 0, 0, 0])).is_zero_matrix
 
 
+@pytest.mark.long
 def test_second_route_the_extended_euclidean_algorithm(tanks):
     w = sp.Symbol("w")
     A, B, P = (sp.Poly(p.subs(Z, 1 / w), w, field=True) for p in (tanks.A * tanks.fixed, tanks.B, tanks.P))
@@ -104,6 +105,7 @@ small = st.fractions(min_value=-2, max_value=2, max_denominator=6).map(lambda f:
     delay=st.integers(1, 4),
     count=st.integers(0, 2),
 )
+@pytest.mark.long
 def test_identity_least_degrees_and_numeric_poles_on_random_plants(a, b, p, delay, count):
     A, B, P = polynomial([1, *a]), polynomial([0] * delay + b), polynomial([1, *p])
     assume(B != 0)

@@ -118,6 +118,7 @@ positive = st.integers(1, 12).map(lambda n: Rational(n, 3))
     start=st.tuples(small, small, small),
     signals=st.lists(st.tuples(small, small), min_size=1, max_size=6),
 )
+@pytest.mark.long
 def test_one_controller_sample_by_sample(setting, start, signals):
     """Five programs and the shortest one, exact rationals, from any common start, with limits that bind."""
     gains = dict(zip((K, Ti, Td, Tf, Tt, h, b), map(Rational, setting), strict=True)) | {c: Rational(0)}

@@ -19,6 +19,8 @@ from derivations.sampling.zero_order_hold import (
     zero_order_hold,
 )
 
+pytestmark = pytest.mark.long
+
 T1, T2, h, part = sp.symbols("T_1 T_2 h lambda", positive=True)
 R = sp.Rational
 times = st.fractions(min_value=Fraction(1, 5), max_value=8, max_denominator=7)

@@ -32,6 +32,7 @@ exact_settings = st.builds(
 
 @settings(max_examples=60, deadline=None)
 @given(setting=exact_settings, start=fractions, signals=signals)
+@pytest.mark.long
 def test_equal_to_figures_4_9_to_4_13(setting, start, signals):
     """Sample by sample, exactly, with limits that bind: controller and five programs agree to the last digit."""
     p24 = setting.K * setting.Td / (setting.Tf + setting.h)

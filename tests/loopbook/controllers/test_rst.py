@@ -36,6 +36,7 @@ def loop_polynomial(B, A, regulator):
     st.integers(0, 2),
     st.lists(st.integers(-7, 7), min_size=1, max_size=5),
 )
+@pytest.mark.long
 def test_equal_to_the_symbolic_route(a, b, delays, integrators, poles):
     """Random problems with coefficients in tenths, solved exactly by derivations.pole_placement.diophantine."""
     from sympy import Rational

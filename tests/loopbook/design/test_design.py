@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 
 from loopbook.controllers.pid_forms import PidStandard
-from loopbook.design import limited, placement, tables
+from loopbook.design import placement, tables
 from loopbook.design.candidates import Candidate, candidates
 from loopbook.design.evaluation import evaluate, robustness, total_variation
-from loopbook.design.model import Model, ModelError, read_toml
+from loopbook.design.model import Model, ModelError
+from loopbook.design.model_file import TEMPLATE, read_fixed, read_toml
 from loopbook.design.program import round_down, sampled_program
 from loopbook.design.recommendation import AIMS, AimError, recommend
+from loopbook.design.running import Running
+from loopbook.design.speed import at_closed, at_speed
+from loopbook.design.speed import rules as speed_rules
 from loopbook.documents.pid_report.printed_programs import ProgramController
 from loopbook.loop.continuous import Loop
 from loopbook.numerics.signals import Signal
@@ -42,7 +46,9 @@ def test_rules_get_the_numbers_of_the_model(judged):
 def test_margins_and_errors_are_those_of_the_loop(judged):
     e = next(e for e in judged[0] if e.candidate.name == "SIMC, PI")
     assert e.Ms == pytest.approx(1.59, abs=0.01)  # the published value for closed = L
-    assert e.iae_load >= 10 / (5 / 6) - 1e-9  # |integral of e| = Ti/K bounds the IAE from below
+    Ti, K = e.candidate.pid.Ti, e.candidate.pid.K
+    assert e.iae_load == pytest.approx(Ti / K, rel=1e-9)  # the error does not change its sign: IAE = |integral of e|
+    assert (Ti, K) == (pytest.approx(10), pytest.approx(5 / 6))
     slower = Loop(FOPDT.process, e.candidate.pid).with_delay(e.delay_margin * 0.999)
     faster = Loop(FOPDT.process, e.candidate.pid).with_delay(e.delay_margin * 1.001)
     assert slower.is_stable and not faster.is_stable
@@ -110,7 +116,7 @@ def test_total_variation_counts_every_turn():
 def test_the_program_runs_as_the_documents_program(judged):
     chosen = next(e for e in judged[0] if e.candidate.name == "AMIGO step, PID")
     program = sampled_program(chosen, 10.0, limits=(-0.3, 0.3))
-    run = limited.run(FOPDT, program, 60.0, 1.0, 0.2)
+    run = Running(FOPDT, program, 60.0, 1.0, 0.2, 0.0, (0.0, 0.0)).clean
     assert abs(run.u).max() <= 0.3
     own_program = ProgramController("4.13", program.settings)
     again = [own_program.step(y, r) for y, r in zip(run.measured, run.reference, strict=True)]
@@ -148,7 +154,7 @@ def test_models_are_drawn_around_the_estimate():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", r"has no \[process\]"),
+        ("", r"process"),
         ("[process]\ngain = 2\n", "lacks delay"),
         ("[process]\ngian = 2\ndelay = 1\n", "no entry 'gian'; did you mean gain"),
         ("[process]\ngain = '2'\ndelay = 1\n", "gain = '2': a number is expected"),
@@ -157,6 +163,9 @@ def test_models_are_drawn_around_the_estimate():
         ("[process]\ngain = 0\ndelay = 1\ntime_constants = [3]\n", "other than zero"),
         ("[process]\ngain = 2\ndelay = 1\ntime_constants = [3]\n[experiment]\nK180 = 1\n", "needs K180 and T180"),
         ("[process", "p.toml: "),
+        ("[process]\ngain = 2\ndead_time = 1\ntime_constants = [3]\n", "no entry 'dead_time'; did you mean delay"),
+        ("[proces]\ngain = 2\n", "no entry 'proces'; did you mean process"),
+        ("process = 3\n", r"process"),
     ],
 )
 def test_a_process_file_that_cannot_be_used_says_why(tmp_path, text, message):
@@ -175,6 +184,52 @@ def test_a_process_file_is_read(tmp_path):
     assert (model.gain, model.lags, model.delay) == (-2.0, (10.0, 4.0), 3.0)
     assert model.frequency.Ku == 5.0
     assert model.latex() == r"G(s) = \frac{-2}{(1 + 10 s) (1 + 4 s)} e^{-3 s}"
+
+
+def test_a_single_time_constant_is_a_number(tmp_path):
+    file = tmp_path / "p.toml"
+    for text in ("time_constants = 3", "time_constant = 3.0", "time_constants = [3]"):
+        file.write_text(f"[process]\ngain = 2\ndelay = 0\n{text}\n", encoding="utf-8")
+        assert read_toml(file).lags == (3.0,)
+
+
+def test_the_template_is_a_model_file(tmp_path):
+    file = tmp_path / "p.toml"
+    file.write_text(TEMPLATE, encoding="utf-8")
+    assert read_toml(file).lags == (10.0, 4.0)
+
+
+def test_many_lags_print_as_powers_or_as_a_product():
+    assert Model(2.0, (3.0,) * 30, 1.0).latex() == r"G(s) = \frac{2}{(1 + 3 s)^{30}} e^{-1 s}"
+    assert r"\prod_{i=1}^{30} (1 + T_i s)" in Model(2.0, tuple(np.arange(1.0, 31.0)), 1.0).latex()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("K", "write K=2"),
+        ("Q=3", "write K=2"),
+        ("K=x", "a number is expected"),
+        ("T=3 fortnights", "is no time"),
+        ("K=0", "other than zero"),
+        ("T=-3", "not negative"),
+        ("T=3, T1=4", "not both"),
+        ("K=2, gain=3", "given twice"),
+    ],
+)
+def test_parameters_that_cannot_be_fixed_say_why(text, message):
+    with pytest.raises(ModelError, match=message):
+        read_fixed(text)
+
+
+def test_the_knob_goes_from_slow_to_fast():
+    points = [at_speed(FOPDT, s) for s in (0.0, 0.5, 1.0)]
+    assert points[0].closed > points[1].closed > points[2].closed == FOPDT.delay
+    assert at_closed(FOPDT, points[1].closed).speed == pytest.approx(0.5)
+    gains = [[c.pid.K for c in candidates(FOPDT, speed_rules(FOPDT, p))[0]] for p in points]
+    assert all(a < b < c for a, b, c in zip(*gains, strict=True))
+    with pytest.raises(ModelError, match="from 0"):
+        at_speed(FOPDT, 1.5)
 
 
 def test_tables_hold_every_setting(judged):

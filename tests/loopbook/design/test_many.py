@@ -14,6 +14,8 @@ from notebook_reports.project.console import Console
 from notebook_reports.project.project import project_at
 from notebook_reports.run import warm
 
+pytestmark = pytest.mark.builds
+
 NOTEBOOK = Path(__file__).parents[3] / "notebooks" / "own_process" / "design.ipynb"
 
 
@@ -44,7 +46,9 @@ def run(tmp_path_factory):
         patch.delenv(warm.PLAIN, raising=False)
         patch.setattr(warm.Warm, "fork", lambda self, *order: forked.append(fork(self, *order)) or forked[-1])
         derive = "loopbook.design.ready:derive"
-        outcome = apply(project_at(folder), NOTEBOOK, wanted, [("u_low", "None")], console=Console(out), ready=derive)
+        outcome = apply(
+            project_at(folder), NOTEBOOK, wanted, [("unlimited", "True")], console=Console(out), ready=derive
+        )
     return folder, outcome, out.getvalue(), forked
 
 
@@ -65,7 +69,7 @@ def test_the_bad_record_is_named_with_its_reason_and_the_command(run):
     folder, _, said, _ = run
     last = said[said.index("1 failed:") :]
     assert "flat" in last and "no step found: the input 'u' is 0 from the first sample to the last" in last
-    assert f"Repeat: loopbook design {folder / 'flat.csv'} -p u_low None" in last
+    assert f"Repeat: loopbook design {folder / 'flat.csv'} -p unlimited True" in last
     assert "ok    one" in said and "ok    model" in said and str(folder / "out" / "one-design.pdf") in said
 
 

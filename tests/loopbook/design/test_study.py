@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tools import example_record as example
 
-from loopbook.design import placement, tables
+from loopbook.design import page, placement, tables
 from loopbook.design.model import ModelError
 from loopbook.design.ready import derive
 from loopbook.design.recommendation import AIMS
@@ -39,6 +39,13 @@ def study(tmp_path_factory):
     return Study(file, u_low=0.0, u_high=100.0)
 
 
+def shown(found):
+    """All text of the first page."""
+    return "\n".join(
+        " ".join(r) for t in (page.recorded, page.entered, page.switched_on, page.watched) for r in t(found).rows
+    )
+
+
 def test_the_example_gives_its_process_back_and_a_robust_loop_on_it(study):
     fit = study.identified.chosen
     for parameter, true in zip(fit.parameters, (2.4, 40.0, 12.0, 8.0), strict=True):
@@ -59,7 +66,8 @@ def test_the_results_are_plain_data_with_the_numbers_of_the_report(study):
     assert found["data"] == "example.csv" and found["rule"] == study.recommendation.chosen.candidate.name
     assert found["process"]["half_widths_95"]["L"] == pytest.approx(study.identified.chosen.parameters[-1].half_width)
     assert found["gains"] == study.program.gains and found["limits"] == {"u_low": 0.0, "u_high": 100.0}
-    assert found["expected"]["Ms"] == pytest.approx(study.recommendation.chosen.Ms)
+    assert found["expected"]["Ms"] == pytest.approx(study.running.Ms, rel=1e-3)
+    assert found["operating_point"] == {"u0": 40.0, "y0": study.rest[1]} and found["limits_confirmed"]
 
 
 def test_the_program_stays_within_the_limits_and_settles(study):
@@ -72,7 +80,7 @@ def test_the_program_stays_within_the_limits_and_settles(study):
 
 def test_the_summary_and_the_tables_say_what_there_is_to_mind(tmp_path):
     found = Study(logged(tmp_path / "log.csv"), time="Time", input="Q1", output="T1")
-    said = "\n".join(" ".join(row) for row in found.summary().rows)
+    said = shown(found)
     assert "log.csv" in said and "Only 1 sample before the first step" in said and "extrapolation" in said
     read = "\n".join(row[1] for row in tables.assumptions(found).rows)
     assert "decimals by ','" in read and "Output: column 'T1'" in read and "1 step of the input found" in read
@@ -122,7 +130,7 @@ def test_an_integrating_model_gets_a_whole_design(tmp_path):
     file = tmp_path / "level.toml"
     file.write_text("[process]\ngain = 0.2\ndelay = 3\nintegrating = true\n", encoding="utf-8")
     found = Study(file)
-    assert found.recommendation.chosen.stable and len(found.summary().rows) >= 8
+    assert found.recommendation.chosen.stable and "K" in shown(found)
     assert found.program.settings.h < 3 and json.dumps(found.results(), allow_nan=False)
 
 

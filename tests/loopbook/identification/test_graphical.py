@@ -8,7 +8,7 @@ from tools import example_record as example
 
 from loopbook.identification.graphical import first_step, readings
 from loopbook.identification.models import FIRST_ORDER
-from loopbook.records.reading import read_csv
+from loopbook.records.reading import read_record
 from loopbook.records.record import Record
 
 
@@ -58,7 +58,7 @@ def test_a_response_that_has_not_settled_is_refused_with_the_reason():
 def test_only_the_first_step_is_read(tmp_path):
     file = tmp_path / "example.csv"
     file.write_text(example.text(), encoding="utf-8")
-    record = read_csv(file)
+    record = read_record(file)
     assert len(first_step(record).time) == 165 and first_step(made()).time[-1] == made().time[-1]
     found = {r.rule: r.values for r in readings(record)}
     assert found["tangent and 63 %"]["Kp"] == pytest.approx(2.4, rel=0.02)

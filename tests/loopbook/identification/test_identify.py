@@ -15,7 +15,8 @@ from loopbook.identification.models import (
     Structure,
 )
 from loopbook.process.transfer_function import Process
-from loopbook.records.record import Record, RecordError
+from loopbook.records.faults import find_faults
+from loopbook.records.record import Other, Record, RecordError
 from loopbook.records.steps import find_steps, noise_level
 
 TRUE = {
@@ -52,6 +53,7 @@ def test_nearly_equal_lags_are_no_trap():
 
 
 @pytest.mark.parametrize("structure", TRUE, ids=lambda s: s.name)
+@pytest.mark.long
 def test_known_processes_are_recovered_within_their_intervals_in_nine_of_ten_seeds(structure):
     values, noise = TRUE[structure]
     hits = np.zeros(len(values))
@@ -120,6 +122,7 @@ def _following(seed: int) -> Record:
     ],
     ids=["quantised", "coarse", "very coarse", "irregular", "several steps", "drift", "slow noise", "early end"],
 )
+@pytest.mark.long
 def test_records_that_are_not_clean_keep_the_promise_of_the_intervals(record):
     hits = np.zeros(3)
     for seed in range(20):
@@ -183,14 +186,84 @@ def test_a_record_that_ends_too_early_is_used_with_a_warning():
     [
         (np.ones(100), np.arange(100.0), "no step found: the input 'u' is 1 from the first sample"),
         (np.arange(100) >= 20, np.full(100, 3.0), "does not answer the step"),
-        (np.arange(100) >= 20, np.random.default_rng(0).normal(size=100), "does not answer|no model explains"),
-        (np.random.default_rng(0).normal(size=100), np.arange(100.0), "rests between steps"),
-        (np.arange(100) >= 20, np.sin(np.arange(100) * 1.9) + np.arange(100) % 17, "no model explains|does not answer"),
+        (np.arange(100) >= 20, np.random.default_rng(0).normal(size=100), "does not answer|lost in the noise"),
+        (np.random.default_rng(0).normal(size=100), np.arange(100.0), "a drift explains"),
+        (
+            np.arange(100) >= 20,
+            np.sin(np.arange(100) * 1.9) + np.arange(100) % 17,
+            "no model explains|does not answer|lost in the noise",
+        ),
     ],
 )
 def test_records_that_support_no_model_are_refused_in_words(u, y, message):
     with pytest.raises(RecordError, match=message):
         identify(Record(np.arange(100.0), np.asarray(u, float), y))
+
+
+def test_a_ramp_and_a_random_course_are_used_as_recorded():
+    time = np.arange(0.0, 200.0, 0.5)
+    random = np.random.default_rng(4)
+    courses = (
+        np.clip((time - 20) / 60, 0, 1),
+        np.repeat(random.choice([0.0, 1.0], 40), 10),
+        np.where(time < 20, 0, np.sin((time - 20) / 15)),
+    )
+    for u in courses:
+        moves = np.flatnonzero(np.diff(u))
+        steps = [(float(time[k + 1]), float(u[k + 1] - u[k])) for k in moves]
+        clean = sum(2 * h * FIRST_ORDER.shape(time - at - 3, (10.0,)) for at, h in steps)
+        found = identify(Record(time, u, clean + random.normal(0, 0.01, len(time))))
+        assert found.chosen.structure is FIRST_ORDER
+        for p, true in zip(found.chosen.parameters, (2.0, 10.0, 3.0), strict=True):
+            assert p.value == pytest.approx(true, rel=0.05)
+
+
+@pytest.mark.parametrize("structure", STRUCTURES, ids=lambda s: s.name)
+def test_many_steps_in_one_pass_are_the_sum_of_their_responses(structure):
+    time = np.linspace(0, 60, 301)
+    random = np.random.default_rng(1)
+    steps = [
+        (float(t), float(h)) for t, h in zip(np.sort(random.uniform(0, 50, 30)), random.normal(size=30), strict=True)
+    ]
+    lags = (6.0, 1.5)[: structure.lags]
+    added = sum(h * structure.shape(time - at - 2.3, lags) for at, h in steps)
+    assert np.allclose(structure.response(time, steps, lags, 2.3), added, atol=1e-9)
+
+
+def test_a_start_off_rest_is_estimated_along():
+    record = made(FIRST_ORDER, (2.0, 10.0, 3.0), 0.01, length=120.0, step_at=15.0)
+    decaying = Record(record.time, record.u, record.y + 1.5 * np.exp(-record.time / 10))
+    found = identify(decaying)
+    assert found.chosen.nuisance == "start"
+    for p, true in zip(found.chosen.parameters, (2.0, 10.0, 3.0), strict=True):
+        assert p.value == pytest.approx(true, rel=0.03)
+
+
+def test_a_further_input_is_a_known_disturbance():
+    record = made(FIRST_ORDER, (2.0, 10.0, 3.0), 0.01, length=120.0)
+    other = np.where(record.time >= 60, 2.0, 0.0)
+    y = record.y + 0.7 * 2.0 * FIRST_ORDER.response(record.time, [(60.0, 1.0)], (10.0,), 3.0)
+    found = identify(Record(record.time, record.u, y, others=(Other("Q2", other),)))
+    assert found.chosen.effects["Q2"] == pytest.approx(0.7, rel=0.03)
+    assert any("Q2 moves too" in reason for reason in found.reasons)
+
+
+def test_outliers_and_a_cut_sensor_are_left_out():
+    record = made(FIRST_ORDER, (2.0, 10.0, 3.0), 0.02, length=80.0)
+    y = np.minimum(record.y, 20 + 2 * 0.9)
+    y[[50, 120]] += 9.0
+    faults = find_faults(record.time, record.u, y)
+    assert faults.left_out[[50, 120]].all() and 0.3 < faults.cut < 0.9 and len(faults.notes) == 2
+    found = identify(Record(record.time, record.u, y, left_out=faults.left_out, cut=faults.cut))
+    for p, true in zip(found.chosen.parameters, (2.0, 10.0, 3.0), strict=True):
+        assert p.value == pytest.approx(true, rel=0.1)
+
+
+def test_a_clean_record_has_no_faults():
+    for structure, (values, noise) in TRUE.items():
+        for size in (0.0, noise, 10 * noise):
+            record = made(structure, values, size)
+            assert not find_faults(record.time, record.u, record.y).left_out.any(), (structure, size)
 
 
 def test_the_step_is_found_where_the_input_moves():

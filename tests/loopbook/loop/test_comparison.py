@@ -6,7 +6,7 @@ import pytest
 from loopbook.controllers.pid_forms import PidParallel
 from loopbook.controllers.rst import Rst, with_zeros
 from loopbook.documents.double_tank.tank_load import tank_disturbance
-from loopbook.loop.comparison import Candidate, turns
+from loopbook.loop.comparison import ComparedLoop, turns
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
 from loopbook.pole_placement.numeric import place
@@ -26,7 +26,7 @@ def test_a_fast_sampled_loop_measures_like_the_continuous_one():
     pid = PidParallel(1.5, 0.3)
     h = 0.05
     sampled = Rst((1, -1), (1.5 + 0.3 * h, -1.5), (1.5 + 0.3 * h, -1.5), h)
-    slow, fast = Candidate("c", Loop(process, pid), 40.0), Candidate("s", SampledLoop(process, sampled), 40.0)
+    slow, fast = ComparedLoop("c", Loop(process, pid), 40.0), ComparedLoop("s", SampledLoop(process, sampled), 40.0)
     assert fast.step.rise == pytest.approx(slow.step.rise, rel=0.05)
     assert fast.disturbance_peak == pytest.approx(slow.disturbance_peak, rel=0.05)
     assert fast.disturbance_iae == pytest.approx(slow.disturbance_iae, rel=0.05)
@@ -36,7 +36,7 @@ def test_a_fast_sampled_loop_measures_like_the_continuous_one():
 
 def test_metrics_between_the_samples_of_pole_placement():
     """q = 0.5: dead beat in nothing but without overshoot, the input a staircase that starts with K_r."""
-    one = Candidate("q", placed(0.5), 80.0, tank_disturbance(TANK))
+    one = ComparedLoop("q", placed(0.5), 80.0, tank_disturbance(TANK))
     t = np.linspace(0, 80, 8001)
     y = one.reference[0](t)
     assert one.step.rise == pytest.approx(t[y > 0.9][0] - t[y > 0.1][0], abs=0.02)
@@ -48,8 +48,8 @@ def test_metrics_between_the_samples_of_pole_placement():
 
 def test_one_sample_more_of_dead_time():
     """The two faster designs do not bear it."""
-    assert [Candidate("q", placed(q), 80.0).survives(1.0) for q in (0.3, 0.5, 0.7)] == [False, False, True]
-    assert [Candidate("q", placed(q), 80.0).regulator_is_stable for q in (0.3, 0.5, 0.7)] == [False, False, True]
+    assert [ComparedLoop("q", placed(q), 80.0).survives(1.0) for q in (0.3, 0.5, 0.7)] == [False, False, True]
+    assert [ComparedLoop("q", placed(q), 80.0).regulator_is_stable for q in (0.3, 0.5, 0.7)] == [False, False, True]
 
 
 def test_turns_of_a_staircase():

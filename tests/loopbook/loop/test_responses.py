@@ -19,6 +19,8 @@ from loopbook.process.transfer_function import Process
 from loopbook.response.closed_loop import loop_equation
 from loopbook.response.step_metrics import NotSettled
 
+pytestmark = pytest.mark.long
+
 TANK = Process([1 / 8360], [35, 12, 1], 2)
 TUNED = PidParallel(25194.1165104731, 1956.14979824376, 68803.105267141, 28.6213074510803)
 

@@ -1,6 +1,5 @@
 """Sampling, simulation step by step, and sampled loops against the continuous process between the samples."""
 
-import control
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -35,6 +34,7 @@ class P:
     st.floats(0, 4),
     st.floats(0.2, 2),
 )
+@pytest.mark.long
 def test_any_dead_time_held_inputs_give_the_sum_of_step_responses(lags, num, delay, h):
     """Between the samples and at them, against superposed exact step responses."""
     den = [1.0]
@@ -64,8 +64,11 @@ def test_the_polynomials_are_the_recursion_of_the_states(delay, h):
     assert np.abs(y - run.y).max() < 1e-11 * max(1, np.abs(y).max())
 
 
+@pytest.mark.long
 def test_python_control_samples_the_same_without_fraction():
     B, A = sample(TANK, 1.0).polynomials
+    import control
+
     reference = control.sample_system(TANK.rational.to_control(), 1.0)
     assert list(A) == pytest.approx(list(reference.den[0][0]), rel=1e-12)
     assert B[3:5] == pytest.approx(reference.num[0][0], rel=1e-10)

@@ -61,6 +61,7 @@ def test_regulator_parameter(id):
     t2=st.integers(1, 9),
     dead=st.sampled_from(["0", "0.5", "1", "2.25"]),
 )
+@pytest.mark.long
 def test_closed_loop_polynomial_is_the_one_asked(q, t1, t2, dead):
     plant = sample_two_lags(t1, t2, 2, dead, 1)
     x = place_poles(plant, q).parameters

@@ -97,6 +97,7 @@ def test_a_pure_delay_steps_at_once():
     st.lists(st.floats(0.05, 20), min_size=1, max_size=4),
     st.lists(st.floats(0.1, 3), min_size=1, max_size=2),
 )
+@pytest.mark.long
 def test_python_control_agrees_and_round_trips(lags, num):
     import control
 
@@ -116,6 +117,7 @@ def test_pade_converges_to_the_dead_time():
     assert errors[0] > 10 * errors[1] > 100 * errors[2]
 
 
+@pytest.mark.long
 def test_from_control_refuses_sampled_and_multivariable_systems():
     import control
 

@@ -5,7 +5,7 @@ from datetime import datetime, timedelta
 import numpy as np
 import pytest
 
-from loopbook.records.reading import read_csv
+from loopbook.records.reading import read_record
 from loopbook.records.record import Record, RecordError
 from loopbook.records.steps import find_steps
 
@@ -31,7 +31,7 @@ def day(seconds, form):
 def read(tmp_path, text, encoding="utf-8", **names):
     file = tmp_path / "log.csv"
     file.write_bytes(text.encode(encoding))
-    return read_csv(file, **names)
+    return read_record(file, **names)
 
 
 def comma(value):
@@ -145,9 +145,9 @@ def test_what_cannot_be_read_is_refused(tmp_path, text, message):
 
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(RecordError, match="there is no file"):
-        read_csv(tmp_path / "none.csv")
+        read_record(tmp_path / "none.csv")
     with pytest.raises(RecordError, match="is a folder"):
-        read_csv(tmp_path)
+        read_record(tmp_path)
 
 
 def test_a_record_refuses_what_it_cannot_hold():

@@ -15,6 +15,7 @@ from loopbook.response.step_metrics import StepMetricsError, exact
 
 @pytest.mark.parametrize("unit", [1e-6, 1.0, 3e4])
 @pytest.mark.parametrize("Ti", [100, 1000, 1e6])
+@pytest.mark.long
 def test_slow_creep_does_not_hide_the_overshoot(Ti, unit):
     """25/(s + 1)^2 under PI: a fast swing as without integral action, then a creep that lasts Ti."""
     loop = Loop(Process([25], [unit**2, 2 * unit, 1]), PidStandard(1, Ti * unit))

@@ -48,6 +48,7 @@ def test_the_curve_touches_the_circle_and_never_enters(design, member):
 
 
 @pytest.mark.parametrize("member", SAMPLE[::3], ids=lambda m: m.name)
+@pytest.mark.long
 def test_no_neighbour_of_the_pi_optimum_is_better(member):
     """The largest feasible ki over a fan of gains K, found by bisection on a grid, is at the optimum."""
     best = migo.pi(member.process)

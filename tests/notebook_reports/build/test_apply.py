@@ -9,6 +9,8 @@ from notebook_reports.build.apply import apply, items
 from notebook_reports.project.console import Console
 from notebook_reports.project.project import UsageError
 
+pytestmark = pytest.mark.builds
+
 READS = "value = float(open(data).read())\nassert value > 0, f'{data} holds {value}'\nvalue"
 
 
@@ -87,19 +89,50 @@ def test_data_that_a_notebook_shows_as_json_is_a_report_of_its_own(bench, reader
         "JSON({'K': 0.5})",
     )
     (tmp_path / "a.csv").write_text("1")
-    (single,) = items([tmp_path / "a.csv"], tmp_path / "a.json", "design", ["pdf"])
+    (single,) = items([tmp_path / "a.csv"], tmp_path / "a.json", "design")
     assert run(bench, shows, [single])[0].code == 0
     assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8")) == {"K": 0.5}
     outcome, said = run(bench, reader, [single])
     assert outcome.code == 1 and "json: LookupError: the notebook shows no data as JSON" in said
-    assert not (tmp_path / "a.json").exists()
+    assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8")) == {"K": 0.5}
+    assert f"{tmp_path / 'a.json'} is of an earlier run and was left as it is" in said
+
+
+def test_a_run_that_fails_leaves_an_older_report_as_it_is(bench, reader, tmp_path):
+    file, report = tmp_path / "a.csv", tmp_path / "a-design.ipynb"
+    file.write_text("-1")
+    report.write_text("older")
+    outcome, said = run(bench, reader, items([file], None, "design", ["ipynb"]))
+    assert outcome.code == 1 and report.read_text() == "older" and "is of an earlier run" in said
+
+
+def test_code_is_hidden_and_cells_are_left_out(bench, tmp_path):
+    shows = bench.write(
+        "own/shows",
+        "# Shows",
+        ('data: str = "none"', "parameters"),
+        ("only = 'for programmers'\nonly", "code-only"),
+        ("raise RuntimeError('never run')", "detail"),
+        "'for everybody'",
+    )
+    (tmp_path / "a.csv").write_text("1")
+    (single,) = items([tmp_path / "a.csv"], tmp_path / "a.html", "design")
+    out = io.StringIO()
+    how = {"console": Console(out), "leave_out": frozenset({"detail"})}
+    assert apply(bench.project, shows, [single], [], code=False, **how).code == 0, out.getvalue()
+    page = (tmp_path / "a.html").read_text(encoding="utf-8")
+    assert "for everybody" in page and "for programmers" not in page and "data" not in page.partition("<main>")[2]
+    assert apply(bench.project, shows, [single], [], **how).code == 0
+    assert "for programmers" in (tmp_path / "a.html").read_text(encoding="utf-8")
 
 
 def test_where_reports_may_go(tmp_path):
     one, two = tmp_path / "one.csv", tmp_path / "two.csv"
     one.touch(), two.touch()
-    (single,) = items([one], tmp_path / "r.html", "design", ["pdf"])
+    (single,) = items([one], tmp_path / "r.html", "design")
     assert single.outputs == {"html": (tmp_path / "r.html").resolve()}
+    (both,) = items([one], tmp_path / "r.pdf", "design", ["pdf", "json"])
+    assert both.outputs == {f: (tmp_path / f"r.{f}").resolve() for f in ("pdf", "json")}
     with pytest.raises(UsageError, match=r"no such file: .*none\.csv"):
         items([tmp_path / "none.csv"], None, "design", ["pdf"])
     with pytest.raises(UsageError, match=r"ends in \.pdf, \.html, \.ipynb or \.json"):
@@ -110,8 +143,36 @@ def test_where_reports_may_go(tmp_path):
         items([one, two], tmp_path / "r.pdf", "design", ["pdf"])
     (tmp_path / "sub").mkdir()
     (tmp_path / "sub" / "one.csv").touch()
-    with pytest.raises(UsageError, match="two files of one name"):
-        items([one, tmp_path / "sub" / "one.csv"], tmp_path / "out", "design", ["pdf"])
+    found = items([one, tmp_path / "sub" / "one.csv"], tmp_path / "out", "design")
+    assert [i.outputs["pdf"].name for i in found] == [f"{tmp_path.name}-one-design.pdf", "sub-one-design.pdf"]
+    (tmp_path / "one.xlsx").touch()
+    found = items([one, tmp_path / "one.xlsx", one], None, "design")
+    assert [i.outputs["pdf"].name for i in found] == ["one-csv-design.pdf", "one-xlsx-design.pdf"]
+
+
+def test_a_report_goes_where_a_name_without_ending_or_a_link_leads(tmp_path):
+    data = tmp_path / "one.csv"
+    data.touch()
+    plain = tmp_path / "report"
+    plain.touch()
+    (single,) = items([data], plain, "design")
+    assert single.outputs == {"pdf": plain.resolve()}
+    with pytest.raises(UsageError, match="a file without an ending"):
+        items([data], plain, "design", ["pdf", "json"])
+    with pytest.raises(UsageError, match="give a folder"):
+        items([data, tmp_path / "report"], plain, "design")
+    link = tmp_path / "latest"
+    link.symlink_to(tmp_path / "elsewhere" / "r.pdf")
+    (single,) = items([data], link, "design")
+    assert single.outputs == {"pdf": (tmp_path / "elsewhere" / "r.pdf").resolve()}
+    folder = tmp_path / "x.pdf"
+    folder.mkdir()
+    (single,) = items([data], folder, "design")
+    assert single.outputs == {"pdf": (folder / "one-design.pdf").resolve()}
+    gone = tmp_path / "gone.csv"
+    gone.symlink_to(tmp_path / "nowhere.csv")
+    with pytest.raises(UsageError, match=r"gone\.csv \(a link to .*nowhere\.csv, which is not there\)"):
+        items([gone], None, "design")
 
 
 def test_wrong_parameters_are_refused_before_a_kernel_starts(bench, reader, tmp_path):

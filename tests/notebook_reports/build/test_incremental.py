@@ -13,6 +13,8 @@ import pytest
 from notebook_reports.memory import fingerprint
 from notebook_reports.project.project import EnvironmentProblem, UsageError
 
+pytestmark = pytest.mark.builds
+
 TITLE = "# A notebook"
 
 
@@ -177,7 +179,7 @@ def test_an_export_that_fails_is_a_failure_with_its_cell_and_leaves_no_report(tw
     class Problem(Exception):
         cell = 2
 
-    def exporter(content, format, notebook, title, engine):
+    def exporter(content, format, notebook, title):
         if notebook.id == "a/alone":
             raise Problem("a table wider than the page")
         return b"fine"

@@ -12,7 +12,7 @@ import pytest
 from notebook_reports.project import atomic
 from notebook_reports.project.project import EnvironmentProblem
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and limits of POSIX")
+pytestmark = [pytest.mark.builds, pytest.mark.skipif(sys.platform == "win32", reason="signals and limits of POSIX")]
 
 
 def start(bench, *arguments: str, **options) -> subprocess.Popen:

@@ -8,6 +8,8 @@ from notebook_reports.export.book import Chapter, LinkedTable, Page, export_book
 from notebook_reports.export.exporters.choose import ExportError
 from notebook_reports.export.write import typst_engine
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.fixture
 def written(monkeypatch):

@@ -11,6 +11,8 @@ from notebook_reports.export.write.column_widths import SIZE, deciding, extent, 
 from notebook_reports.export.write.typst_engine import fonts
 from notebook_reports.export.write.typst_text import literal
 
+pytestmark = pytest.mark.builds
+
 VOCABULARY = (
     *(
         "the",

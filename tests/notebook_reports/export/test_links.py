@@ -5,6 +5,8 @@ import pytest
 from notebook_reports.display import Equation
 from notebook_reports.export.exporters.choose import ExportError, export
 
+pytestmark = pytest.mark.builds
+
 
 def test_title_is_the_first_top_heading_else_what_is_told_else_the_name(make):
     assert "<title>Two tanks</title>" in make.html(make.notebook("# Two tanks\n\ntext"))

@@ -9,6 +9,8 @@ import sympy
 from notebook_reports.display import Equation, Figure, Table
 from notebook_reports.export.exporters.choose import ExportError, export
 
+pytestmark = pytest.mark.builds
+
 
 def words_of(page):
     return unescape(re.sub(r"<[^>]+>", "", page))

@@ -3,8 +3,10 @@
 import re
 from html.parser import HTMLParser
 
+import pytest
+
 from notebook_reports.display import Figure, Table
-from notebook_reports.export.write.html import inside_page
+from notebook_reports.export.write.inside_page import inside_page
 
 VOID = {"meta", "br", "hr", "img", "input", "link"}
 
@@ -73,6 +75,7 @@ def test_every_text_colour_can_be_read_on_every_ground():
                 assert contrast(colours[ink], colours[ground]) >= 4.5, (ink, ground)
 
 
+@pytest.mark.builds
 def test_marks_are_not_told_by_colour_alone(make):
     rows = [["a", "reproduced"], ["b", "misprint"], ["c", "unexplained"]]
     nb = make.notebook(make.code(Table(["q", "verdict"], rows, marks=["good", "note", "bad"])))

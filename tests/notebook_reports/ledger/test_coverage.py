@@ -4,6 +4,7 @@ import pytest
 
 from notebook_reports.ledger.coverage import by_document, coverage, total
 from notebook_reports.ledger.printed_data import Claim, Misprint, PrintedDocument, Value
+from notebook_reports.ledger.row import LedgerRow
 
 
 def value(id, place="Table 5"):
@@ -19,7 +20,7 @@ def document():
 
 
 def record(table, id, verdict, place="Table 5", document="double-tank"):
-    return {"table": table, "document": document, "place": place, "id": id, "verdict": verdict}
+    return LedgerRow(table, document, place, id, verdict, {})
 
 
 def test_entries_verdicts_and_what_is_open_at_each_place(document):

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from notebook_reports.ledger import document as ledger
 from notebook_reports.ledger.document import Document, LedgerError
 from notebook_reports.ledger.printed_data import Claim, Misprint, PrintedDocument, Value
-from notebook_reports.ledger.verdicts import rounds_to, value_verdict
+from notebook_reports.ledger.verdicts import Computed, rounds_to, value_verdict
 
 
 def value(printed="6.44", **more):
@@ -50,26 +50,43 @@ def test_every_number_rounds_to_its_own_decimals_and_not_to_the_neighbour(n, pla
 
 
 @pytest.mark.parametrize(
-    ("item", "exact", "inputs", "explained", "expected"),
+    ("item", "found", "expected"),
     [
-        (value(), 6.441, None, None, "reproduced"),
-        (value(), 6.43, 6.44, None, "from rounded inputs"),
-        (value(), 6.441, 6.3, None, "reproduced"),
-        (value(kind="given"), None, None, None, "given"),
-        (value(kind="given"), 6.0, None, None, "unexplained"),
-        (value(kind="read", reading="0.1", reason="off a graph"), 6.5, None, None, "read"),
-        (value(kind="read", reading="0.05", reason="off a graph"), 6.5, None, None, "differs"),
-        (value(corrected="6.54", reason="digit"), 6.541, None, None, "misprint"),
-        (value(corrected="6.54", reason="digit"), 6.641, None, None, "unexplained"),
-        (value(reason="a truncated input"), 6.5, None, None, "differs"),
-        (value(reason="a truncated input"), 6.5, None, 6.438, "differs"),
-        (value(reason="a truncated input"), 6.5, None, 6.5, "unexplained"),
-        (value(), 6.5, 6.5, None, "unexplained"),
-        (value(), float("nan"), None, None, "unexplained"),
+        (value(), {"exact": 6.441}, "reproduced"),
+        (value(), {"exact": 6.43, "from_inputs": 6.44}, "from rounded inputs"),
+        (value(), {"exact": 6.441, "from_inputs": 6.3}, "reproduced"),
+        (value(kind="given"), {}, "given"),
+        (value(kind="given"), {"exact": 6.0}, "unexplained"),
+        (value(source="a book"), {"quoted": Fraction("6.44")}, "quoted"),
+        (value(source="a book"), {"quoted": Fraction("6.441")}, "unexplained"),
+        (value("3", source="a book"), {"quoted": Fraction(10, 3)}, "unexplained"),
+        (value(kind="given"), {"first": Fraction("6.44")}, "repeated"),
+        (value(kind="given"), {"first": Fraction("6.45")}, "unexplained"),
+        (value("6.4", kind="given"), {"first": Fraction("6.44")}, "repeated"),
+        (value(reading="0.1", reason="off a graph"), {"exact": 6.5}, "read"),
+        (value(reading="0.05", reason="off a graph"), {"exact": 6.5}, "unexplained"),
+        (value(reading="0.05", reason="off a graph", between=("6", "7")), {"exact": 6.5}, "unexplained"),
+        (value(corrected="6.54", reason="digit"), {"exact": 6.541}, "misprint"),
+        (value(corrected="6.54", reason="digit"), {"exact": 6.641}, "unexplained"),
+        (value(reason="a truncated input"), {"exact": 6.5}, "unexplained"),
+        (value(reason="a truncated input"), {"exact": 1e9}, "unexplained"),
+        (value(reason="a truncated input"), {"exact": 6.5, "explained": 6.438}, "differs"),
+        (value(reason="a truncated input"), {"exact": 6.5, "explained": 6.5}, "unexplained"),
+        (value(reason="a closed tool", between=("6.49", "6.51")), {"exact": 6.5}, "differs"),
+        (value(reason="a closed tool", between=("6.49", "6.51")), {"exact": 6.52}, "unexplained"),
+        (value(), {"exact": 6.5, "from_inputs": 6.5}, "unexplained"),
+        (value(), {"exact": float("nan")}, "unexplained"),
     ],
 )
-def test_verdict(item, exact, inputs, explained, expected):
-    assert value_verdict(item, exact, inputs, explained) == expected
+def test_verdict(item, found, expected):
+    assert value_verdict(item, Computed(**found)) == expected
+
+
+@given(st.decimals(-(10**6), 10**6, places=3), st.integers(1, 10**6))
+def test_no_row_with_a_reason_accepts_any_number(printed, off):
+    """Without a number that follows from the reason, or an interval, nothing off the print is explained."""
+    item = value(str(printed), reason="because")
+    assert value_verdict(item, Computed(exact=Fraction(printed) + off)) == "unexplained"
 
 
 @pytest.fixture
@@ -83,10 +100,12 @@ def book():
     misprints = {
         "eq-4.17": Misprint(
             *("pid-report", "eq. 4.17", "eq-4.17", "formula", "p4 = a/b*c", "p4 = a/(b*c)", "parentheses", True),
+            proof="derivation",
             printed_expr="a/b*c",
             corrected_expr="a/(b*c)",
         ),
         "label": Misprint("pid-report", "Table 4", "label", "label", "Table 4", "Table 5", "named twice", False),
+        "run": Misprint("pid-report", "Table 4", "run", "code", "u = K p", "u = Kp", "a break", True, "run"),
     }
     return Document(PrintedDocument("pid-report", values, claims, misprints))
 
@@ -136,10 +155,37 @@ def test_claims(book, parts, expected):
 
 def test_a_misprint_is_proven_by_the_derived_formula(book):
     a, b, c = sympy.symbols("a b c", positive=True)
-    assert book.misprint("eq-4.17", a / (b * c)).verdicts() == {"eq-4.17": "confirmed"}
+    assert book.misprint("eq-4.17", a / (b * c)).verdicts() == {"eq-4.17": "proved"}
     assert not book.misprint("eq-4.17", a * c / b).ok  # the derivation gives the print: no misprint
     assert not book.misprint("eq-4.17", a / (b + c)).ok  # it gives neither: the correction is wrong
-    assert book.misprint("label", True).ok and not book.misprint("label", False).ok
+
+
+@pytest.mark.parametrize(("outcome", "ok"), [((False, True), True), ((True, True), False), ((False, False), False)])
+def test_a_run_proves_that_the_print_fails_and_the_correction_holds(book, outcome, ok):
+    checked = book.misprint("run", outcome)
+    assert checked.ok is ok and checked.records[0].fields["proof"] == "run"
+
+
+def test_a_slip_is_noted_and_cannot_be_called_proved(book):
+    assert book.noted("label").verdicts() == {"label": "noted"}
+    with pytest.raises(LedgerError, match=r"misprint label: the data names no proof; use noted\(\)"):
+        book.misprint("label", True)
+    with pytest.raises(LedgerError, match="misprint run: the data says it is proved"):
+        book.noted("run")
+
+
+def test_a_repeated_print_is_checked_against_the_first(book):
+    values = book.printed.values | {
+        "L2": Value("pid-report", "Figure 1", "L2", "$L$", "0.075", "s", "given", same_as="L")
+    }
+    again = Document(PrintedDocument("pid-report", values, {}, {})).check("Figure 1")
+    assert again.verdicts() == {"L2": "repeated"} and again.records[0].fields["first"] == "0.075"
+    assert again.records[0].fields["reason"] == "as at section 5.4, $L$"
+
+
+def test_a_quoted_constant_needs_its_source(book):
+    with pytest.raises(LedgerError, match=r"no source in the data for K"):
+        book.check("Table 5.2", quoted={"K": Fraction("6.44")}, only=("K",))
 
 
 def test_other_parameters_are_shown_without_a_verdict(book):

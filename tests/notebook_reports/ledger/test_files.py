@@ -5,8 +5,8 @@ import pytest
 from notebook_reports.build import judge
 from notebook_reports.ledger import files as ledger_files
 from notebook_reports.ledger import harvest
-from notebook_reports.ledger.harvest import Found
 from notebook_reports.ledger.printed_data import PrintedDocument, Value
+from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.memory import stamps
 from notebook_reports.project.project import Notebook
 
@@ -22,16 +22,14 @@ FIELDS = {
 
 
 def found(id="rise", verdict="reproduced", table="value", notebook="a/b", place="Table 5", **fields):
-    return Found(notebook, 7, "table-5", "Results", table, "double-tank", place, id, verdict, {**FIELDS, **fields})
-
-
-def rows(*records):
-    return ledger_files.rows(records, "value")
+    told = {**FIELDS, **fields}
+    return LedgerRow(table, "double-tank", place, id, verdict, told, notebook, 7, "table-5", "Results")
 
 
 def test_rows_are_sorted_as_a_person_counts():
-    made = rows(found("q10", place="Table 10"), found("q2", place="Table 2"), found("q10"), found("q9"))
-    assert [(r["place"], r["id"]) for r in made] == [
+    new = [found("q10", place="Table 10"), found("q2", place="Table 2"), found("q10"), found("q9")]
+    made, _ = ledger_files.compare("value", [], new)
+    assert [(r.place, r.id) for r in made] == [
         ("Table 2", "q2"),
         ("Table 5", "q9"),
         ("Table 5", "q10"),
@@ -40,13 +38,14 @@ def test_rows_are_sorted_as_a_person_counts():
 
 
 def test_a_file_is_read_as_it_was_written(tmp_path):
-    content = rows(found(reason='a "quoted", reason\nin two lines with å and ł'), found("other"))
+    content = [found(reason='a "quoted", reason\nin two lines with å and ł'), found("other")]
     path = tmp_path / "ledger.csv"
     path.write_bytes(ledger_files.render("value", content))
-    assert ledger_files.read(path) == content
-    assert content[1]["reason"] == 'a "quoted", reason in two lines with å and ł'
+    kept = ledger_files.read(path, "value")
+    assert [r.columns() for r in kept] == [r.columns() for r in content]
+    assert kept[0].fields["reason"] == 'a "quoted", reason in two lines with å and ł'
     assert path.read_text().splitlines()[0] == (
-        "document,place,id,quantity,printed,unit,kind,exact,from_inputs,verdict,reason,notebook"
+        "document,place,id,quantity,printed,unit,kind,exact,from_inputs,quoted,first,verdict,reason,notebook"
     )
 
 
@@ -60,29 +59,29 @@ def test_a_file_is_read_as_it_was_written(tmp_path):
     ],
 )
 def test_what_moved_and_what_only_changed(change, moved, what):
-    _, changes = ledger_files.compare("value", rows(found()), rows(found(**change)))
+    _, changes = ledger_files.compare("value", [found()], [found(**change)])
     assert [(c.moved, c.what) for c in changes] == [(moved, what)]
 
 
 def test_the_last_bits_of_another_machine_are_no_change():
-    old = rows(found())
-    kept, changes = ledger_files.compare("value", old, rows(found(exact="3.6634812345680001")))
+    old = [found()]
+    kept, changes = ledger_files.compare("value", old, [found(exact="3.6634812345680001")])
     assert kept == old and changes == []
 
 
 def test_new_rows_and_rows_that_went():
-    kept, changes = ledger_files.compare("value", rows(found("old")), rows(found("new")))
-    assert [(c.row["id"], c.what, c.moved) for c in changes] == [
+    kept, changes = ledger_files.compare("value", [found("old")], [found("new")])
+    assert [(c.row.id, c.what, c.moved) for c in changes] == [
         ("new", "new, reproduced", False),
         ("old", "gone, was reproduced", True),
     ]
-    assert [r["id"] for r in kept] == ["new"]
+    assert [r.id for r in kept] == ["new"]
 
 
 def test_a_part_replaces_the_rows_of_its_notebooks_only():
-    old = rows(found("a", notebook="x/1"), found("b", notebook="x/2"), found("c", notebook="x/1"))
-    merged = ledger_files.merge(old, rows(found("a", "differs", notebook="x/1")), ["x/1"])
-    assert [(r["id"], r["verdict"]) for r in merged] == [("a", "differs"), ("b", "reproduced")]
+    old = [found("a", notebook="x/1"), found("b", notebook="x/2"), found("c", notebook="x/1")]
+    merged = ledger_files.merge(old, [found("a", "differs", notebook="x/1")], ["x/1"])
+    assert sorted((r.id, r.verdict) for r in merged) == [("a", "differs"), ("b", "reproduced")]
 
 
 def test_a_failing_check_names_cell_place_printed_computed_and_command():
@@ -109,10 +108,8 @@ def judged(bench):
     def run(*records, complete=True, **options):
         notebook = Notebook("a/b", bench.write("a/b", "# T"))
         data = [r.data() for r in records]
-        digest = str(hash(str(data)))
-        stamps.save_records(bench.project, notebook, data)
-        stamps.atomic.write(stamps.executed_path(bench.project, notebook), b"{}")
-        stamps.save(bench.project, notebook, stamps.Stamp({}, [], "", "T", 1.0, {}, digest, []))
+        executed, kept = stamps.keep(bench.project, notebook, b"{}", data)
+        stamps.save(bench.project, notebook, stamps.Stamp({}, [], executed, "", "T", 1.0, {}, kept, []))
         bench.remembered = lambda: judge.remembered(bench.project, [notebook], f"{complete} {False}")
         return judge.judge(bench.project, [notebook], complete, **options)
 
@@ -165,14 +162,15 @@ def test_what_is_printed_and_not_checked_fails_by_place(bench, judged):
     assert "table_5.toml, value (without id): printed = None must be a string" in failure.what
 
 
+@pytest.mark.builds
 def test_the_build_harvests_what_cells_leave(bench):
     bench.write("a/b", "# T", "## Results", bench.record("rise"), bench.record("slow", "unexplained", exact="2"))
     outcome = bench.build()
     assert outcome.code == 1
     assert "a/b, cell 4: double-tank, Table 5, slow (slow): document prints 1.0, computed 2" in bench.said
     assert "ok    a/b" in bench.said and "2 values" in bench.said
-    assert ledger_files.read(bench.root / "reports/ledger.csv")[0]["notebook"] == "a/b"
+    assert ledger_files.read(bench.root / "reports/ledger.csv", "value")[0].notebook == "a/b"
     assert bench.build().code == 1 and bench.exported == []  # remembered, not run again
     assert "cell 4" in bench.said
-    (record, _) = stamps.load_records(bench.project, bench.project.notebooks()[0])
+    (record, _) = stamps.records(bench.project, bench.project.notebooks()[0])
     assert (record["cell"], record["section"]) == (3, "Results")

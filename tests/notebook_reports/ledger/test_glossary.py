@@ -21,9 +21,20 @@ def test_each_variable_of_a_table(table):
     assert symbols == TABLES[table]
 
 
-def test_every_term_has_two_languages_or_a_symbol():
+WITHOUT_A_WORD = {"filtered measurement of the sample before", "tracking time constant", "sampling instant"}
+
+
+def test_every_term_has_a_second_language_but_three_that_the_report_calls_by_their_symbol():
+    alone = {term.en for term in terms(GLOSSARY) if not (term.sv or term.pl)}
+    assert alone == WITHOUT_A_WORD
+    assert all(term.symbol and term.tables for term in terms(GLOSSARY) if term.en in alone)
+
+
+def test_every_variable_of_a_table_has_symbol_unit_and_the_words_of_the_report():
     for term in terms(GLOSSARY):
-        assert term.sv or term.pl or term.symbol, term.en
+        if term.tables:
+            assert term.symbol.startswith("$") and term.unit, term.en
+            assert term.sv or term.en in WITHOUT_A_WORD, term.en
 
 
 def test_the_table_shows_letters_of_both_languages():

@@ -3,19 +3,17 @@
 The records come from the notebooks themselves, built once where something changed since the last build.
 """
 
-import io
 from functools import cache
 from pathlib import Path
 
 import pytest
 
 from loopbook.documents.open import names, printed
-from notebook_reports.build.build import build
-from notebook_reports.build.job import Wanted
 from notebook_reports.ledger.verdicts import FAILING
 from notebook_reports.memory.manifest import manifest
-from notebook_reports.project.console import Console
 from notebook_reports.project.project import project_at
+
+pytestmark = pytest.mark.builds
 
 PROJECT = project_at(Path(__file__).parents[3])
 
@@ -27,13 +25,6 @@ def entries():
                 quantity = getattr(item, "quantity", "")
                 name = "-".join(filter(None, [document.id, item.place, table if table != "value" else "", quantity]))
                 yield pytest.param(table, document.id, item.id, id=f"{name} ({item.id})")
-
-
-@pytest.fixture(scope="session")
-def outcome():
-    """Run what is not up to date; reports are not written. Workers of one test run wait for each other."""
-    out = io.StringIO()
-    return build(PROJECT, wanted=Wanted(formats=()), console=Console(out), ledger=False)
 
 
 @cache

@@ -11,6 +11,8 @@ import pytest
 from notebook_reports.mathematics import latex_to_mathml, latex_to_text, latex_to_typst
 from notebook_reports.mathematics.symbols import ACCENTS
 
+pytestmark = pytest.mark.long
+
 MATHML = "{http://www.w3.org/1998/Math/MathML}"
 # MathML Core as of 2025, https://w3c.github.io/mathml-core/
 CORE_ELEMENTS = {

@@ -3,7 +3,7 @@
 import pytest
 
 from notebook_reports.ledger.coverage import coverage
-from notebook_reports.ledger.harvest import Found
+from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.ledger.verdicts import CLAIM_VERDICTS, MISPRINT_VERDICTS, VALUE_VERDICTS
 from notebook_reports.pages import ledger_page as ledger
 from notebook_reports.pages.errata import errata
@@ -26,7 +26,7 @@ FIELDS = {
 
 def found(id, table, verdict, document="double-tank", place="Table 5", cell=7, **fields):
     told = FIELDS[table] | fields
-    return Found("double_tank/01", cell, "c", "Results", table, document, place, id, verdict, told)
+    return LedgerRow(table, document, place, id, verdict, told, "double_tank/01", cell, "c", "Results")
 
 
 def everything():
@@ -41,7 +41,7 @@ def urls(page):
 @pytest.mark.parametrize("medium", [PAPER, SCREEN], ids=["paper", "screen"])
 def test_every_record_stands_in_exactly_one_report(medium):
     for record in everything():
-        made = {p.name: p for p in ledger.pages(medium, coverage([], [record.data()]), [record], [])}
+        made = {p.name: p for p in ledger.pages(medium, coverage([], [record]), [record], [])}
         rows = [name for name in ("errata", "open", "reproduced") if name in made and urls(made[name])]
         assert len(rows) == 1, record
         assert urls(made[rows[0]]) == [f"notebook:double_tank/01#cell-{record.cell}"]
@@ -49,13 +49,13 @@ def test_every_record_stands_in_exactly_one_report(medium):
 
 def test_errata_begin_with_what_misleads():
     records = [
-        found("word", "misprint", "confirmed", kind="text", misleads="no"),
+        found("word", "misprint", "proved", kind="text", misleads="no"),
         found("false", "claim", "fails"),
-        found("code", "misprint", "confirmed", kind="code"),
-        found("late", "misprint", "confirmed", place="Table 10"),
-        found("formula", "misprint", "confirmed"),
+        found("code", "misprint", "proved", kind="code"),
+        found("late", "misprint", "proved", place="Table 10"),
+        found("formula", "misprint", "proved"),
         found("number", "value", "misprint"),
-        found("first", "misprint", "confirmed", "pid-report", kind="unit"),
+        found("first", "misprint", "proved", "pid-report", kind="unit"),
         found("right", "value", "reproduced"),
         found("true", "claim", "holds"),
     ]
@@ -88,7 +88,7 @@ def test_the_cover_counts_what_is_printed_and_what_was_found():
 
     values = {"a": Value("double-tank", "Table 5", "a", "q", "1"), "z": Value("double-tank", "Table 5", "z", "q", "1")}
     claims = {id: Claim("double-tank", "Table 5", id, "says") for id in "bc"}
-    counts = coverage([PrintedDocument("double-tank", values, claims, {})], [r.data() for r in records])
+    counts = coverage([PrintedDocument("double-tank", values, claims, {})], records)
     assert ledger.sentences(counts) == [
         "2 printed values: 1 reproduced",
         "2 statements tested: 2 fail",

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from notebook_reports.project.parameters import ParameterError, assign, read_parameters
 from notebook_reports.project.ranges import read_range
-from notebook_reports.project.source import Cell, Source
+from notebook_reports.project.source import Source, SourceCell
 
 CELL = """
 q: float = 0.5  # pole of the observer, [0, 1)
@@ -22,7 +22,7 @@ name: str | None = None
 def source(text=CELL, tags=("parameters",), more=()):
     from pathlib import Path
 
-    cells = [Cell(1, "p", "code", text, tags, ""), *more]
+    cells = [SourceCell(1, "p", "code", text, tags, ""), *more]
     return Source(Path("double_tank/03_pole_placement.ipynb"), tuple(cells), {})
 
 
@@ -116,7 +116,7 @@ def test_a_notebook_without_a_tagged_cell_takes_none():
 
 def test_two_tagged_cells():
     with pytest.raises(ParameterError, match="cells 1 and 2 are both tagged"):
-        read_parameters(source(more=(Cell(2, "p2", "code", "a: int = 1", ("parameters",), ""),)))
+        read_parameters(source(more=(SourceCell(2, "p2", "code", "a: int = 1", ("parameters",), ""),)))
 
 
 @pytest.mark.parametrize(

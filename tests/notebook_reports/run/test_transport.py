@@ -7,6 +7,8 @@ import pytest
 
 from notebook_reports.run import kernels
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.fixture(autouse=True)
 def three_starts(monkeypatch):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.xdist_group("true-record")  # one build for the module
+pytestmark = pytest.mark.builds
 TITLE = "# A notebook"
 NOTEBOOKS = {
     "good/one": [TITLE, "1 + 1"],

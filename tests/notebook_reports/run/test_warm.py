@@ -10,7 +10,10 @@ from notebook_reports.project.console import Console
 from notebook_reports.run import warm, warm_side
 from notebook_reports.run.surroundings import environment
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="kernels are forked on Linux only")
+pytestmark = [
+    pytest.mark.builds,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="kernels are forked on Linux only"),
+]
 CELLS = [
     "# A notebook",
     "import numpy as np, sympy, sys, os\nimport matplotlib.pyplot as plt\nnp.linalg.eigvals(np.eye(2))",
@@ -104,7 +107,7 @@ def test_what_is_made_ready_is_found_by_every_kernel(bench, forks, monkeypatch, 
 
 
 def test_it_ends_with_the_build(bench):
-    process = warm.Warm(environment(bench.root, bench.project.cache))
+    process = warm.Warm(environment(bench.project))
     pid = process._process.pid
     process.close()
     assert warm.Forked(pid).returncode == 1

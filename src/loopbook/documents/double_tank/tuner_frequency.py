@@ -5,6 +5,7 @@ from typing import Any
 
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.by_angles import parameters
+from notebook_reports.ledger.verdicts import last_place
 
 
 def crossover_range(
@@ -14,8 +15,6 @@ def crossover_range(
 
     By the parameter's slope at `near`, which must lie close (relative 1e-10).
     """
-    from notebook_reports.ledger.verdicts import last_place
-
     w, step = Fraction(near), Fraction(near) / 10**10
     value, after = (parameters(process, x, phase_margin, zero, pole, digits=40)[name] for x in (w, w + step))
     slope = (after - value) / step

@@ -15,12 +15,14 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
+from derivations.programs import program_order
+
 PLANT_INPUTS = ("x1", "x2", "u", "k", "T1", "T2", "h")
 REGULATOR_INPUTS = ("e", "last", "total", "Kp", "Ti", "Td", "h")
 
 
 @dataclass(frozen=True)
-class Program:
+class CProgram:
     """The numbers of one simulation.
 
     k [y/u], T1, T2 [s]: the plant. Kp [u/y], Ti, Td [s]: the regulator. u_min, u_max: its limits. h [s]: step.
@@ -41,7 +43,7 @@ class Program:
     t_end: Any
     level: Any
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("T1", "T2", "Ti", "h"):
             if not getattr(self, name) > 0:
                 raise ValueError(f"{name} = {getattr(self, name)} must be a positive time in s")
@@ -56,8 +58,6 @@ class Program:
 
 @cache
 def _function(name: str) -> Callable:
-    from derivations.programs import program_order
-
     inputs, outputs = {"plant": (PLANT_INPUTS, "n1, n2"), "regulator": (REGULATOR_INPUTS, "up, ui, ud")}[name]
     lines = [f"    {s.target} = {s.text}" for s in getattr(program_order, name)()]
     source = "\n".join([f"def {name}({', '.join(inputs)}):", *lines, f"    return {outputs}"])
@@ -72,7 +72,7 @@ def _single() -> Callable:
     return np.float32
 
 
-def open_loop(program: Program, number: Callable | None = None) -> list[tuple]:
+def open_loop(program: CProgram, number: Callable | None = None) -> list[tuple]:
     """Rows (t, x1, x2) of the plant after a step of its input from rest; x1 is the output, x2 its rate.
 
     number: np.float32 (default, as the program), float, or Fraction for exact arithmetic over a few steps.
@@ -88,7 +88,7 @@ def open_loop(program: Program, number: Callable | None = None) -> list[tuple]:
 
 
 def closed_loop(
-    program: Program,
+    program: CProgram,
     number: Callable | None = None,
     *,
     anti_windup: bool = True,
@@ -136,12 +136,10 @@ def text(rows: list[tuple], decimals: int = 4) -> str:
 
 
 def _statements(name: str) -> str:
-    from derivations.programs import program_order
-
     return "\n".join(f"    const real {s.target} = {s.text};" for s in getattr(program_order, name)())
 
 
-def c_source(program: Program, real: str = "float") -> str:
+def c_source(program: CProgram, real: str = "float") -> str:
     """The same simulation as a C99 program: ``./a.out OPEN CLOSED`` writes both files.
 
     real: "float" or "double". The statements of plant and regulator are those that the Python run executes. Compile

@@ -6,7 +6,7 @@ become complex. Responses are integrated with an adaptive method (relative toler
 set-point are segment borders.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
@@ -14,13 +14,18 @@ from typing import Any
 
 import numpy as np
 
+from derivations.errors import LoopbookError
+from derivations.plants import gain_scheduling as g
+from loopbook.experiments.data import StepData
+from loopbook.experiments.two_points import PARTS, fit
+
 STRUCTURES = ("inside", "outside")
 ACTS_ON = ("error", "measurement")
 TOLERANCE = 1e-9
 RUNAWAY = 1e3
 
 
-class ScheduleError(ValueError):
+class ScheduleError(LoopbookError):
     """A schedule or a run that cannot be: the message says what is wrong and where."""
 
 
@@ -49,30 +54,27 @@ class Schedule:
         """
         import sympy
 
-        from derivations.plants.gain_scheduling import parabola
-
         if len(outputs) != 3 or len(settings) != 3 or len(set(outputs)) != 3:
             raise ScheduleError(f"a parabola needs three different outputs with settings, got {list(outputs)}")
         columns = zip(*settings, strict=True)
         exact = [sympy.nsimplify(x, rational=True) for x in outputs]
         return cls(
             *(
-                parabola([(x, sympy.nsimplify(v, rational=True)) for x, v in zip(exact, c, strict=True)])
+                g.parabola([(x, sympy.nsimplify(v, rational=True)) for x, v in zip(exact, c, strict=True)])
                 for c in columns
             )
         )
 
     @cached_property
-    def _function(self):
+    def _function(self) -> Callable[..., Any]:
         import sympy
 
-        from derivations.plants.gain_scheduling import y
-
-        return sympy.lambdify(y, [sympy.sympify(e) for e in (self.K, self.Ti, self.Td)], modules="math")
+        return sympy.lambdify(g.y, [sympy.sympify(e, strict=True) for e in (self.K, self.Ti, self.Td)], modules="math")
 
     def at(self, output: float) -> tuple[float, float, float]:
         """(K, Ti, Td) at one output."""
-        return tuple(map(float, self._function(output)))
+        K, Ti, Td = map(float, self._function(output))
+        return K, Ti, Td
 
     def poles(self, output: float, structure: str = "inside") -> np.ndarray:
         """Poles of the loop linearised at the steady state with this output > 0 [rad/s], ideal derivative."""
@@ -82,12 +84,14 @@ class Schedule:
         return np.roots(coefficients(*self.at(output), stiffness(output), slope, output)).astype(complex)
 
     @cached_property
-    def _slope(self):
+    def _slope(self) -> Callable[..., Any]:
         import sympy
 
-        from derivations.plants.gain_scheduling import y
-
-        return sympy.lambdify(y, sympy.log(sympy.sympify(self.K) / sympy.sympify(self.Ti)).diff(y), modules="math")
+        return sympy.lambdify(
+            g.y,
+            sympy.log(sympy.sympify(self.K, strict=True) / sympy.sympify(self.Ti, strict=True)).diff(g.y),
+            modules="math",
+        )
 
     def is_stable(self, output: float, structure: str = "inside") -> bool:
         """Is the loop linearised at this output asymptotically stable?"""
@@ -95,10 +99,8 @@ class Schedule:
 
 
 @cache
-def _linear_loop():
+def _linear_loop() -> tuple[Callable[..., Any], Callable[..., Any]]:
     import sympy
-
-    from derivations.plants import gain_scheduling as g
 
     rows = sympy.Poly(g.characteristic_outside(), g.s).all_coeffs()
     stiffness = sympy.lambdify(g.y0, g.stiffness(), modules="math")
@@ -106,22 +108,18 @@ def _linear_loop():
 
 
 @cache
-def _acceleration():
+def _acceleration() -> Callable[..., Any]:
     import sympy
 
-    from derivations.plants.gain_scheduling import acceleration, u, v, y
-
-    compute = sympy.lambdify((y, v, u), acceleration(), modules="math")
+    compute = sympy.lambdify((g.y, g.v, g.u), g.acceleration(), modules="math")
     return lambda output, rate, control: compute(max(output, 0.0), rate, control)
 
 
 @cache
-def _static():
+def _static() -> Callable[..., Any]:
     import sympy
 
-    from derivations.plants.gain_scheduling import static_output, u
-
-    return sympy.lambdify(u, static_output(), modules="math")
+    return sympy.lambdify(g.u, g.static_output(), modules="math")
 
 
 def static_output(control: float) -> float:
@@ -141,7 +139,7 @@ def _known(value: str, names: tuple[str, ...], what: str) -> None:
 
 
 @dataclass(frozen=True)
-class Run:
+class ScheduledRun:
     """Samples of one run: t [s], y, its rate v = y', u, and the step input or set-point w; all of one shape.
 
     diverged: |y| passed 1000 and the run stopped there.
@@ -154,10 +152,11 @@ class Run:
     w: np.ndarray
     diverged: bool
 
-    def between(self, start: float, end: float) -> "Run":
+    def between(self, start: float, end: float) -> "ScheduledRun":
         """The samples with start <= t < end; an instant where a step acts appears with the values after it."""
         chosen = (self.t >= start) & (self.t < end)
-        return Run(*(getattr(self, n)[chosen] for n in ("t", "y", "v", "u", "w")), self.diverged)
+        t, y, v, u, w = (row[chosen] for row in (self.t, self.y, self.v, self.u, self.w))
+        return ScheduledRun(t, y, v, u, w, self.diverged)
 
 
 def _segments(steps: Sequence[tuple[float, float]], horizon: float) -> list[tuple[float, float, float]]:
@@ -169,13 +168,20 @@ def _segments(steps: Sequence[tuple[float, float]], horizon: float) -> list[tupl
     return [(start, end, level) for (start, level), end in zip(steps, ends, strict=True)]
 
 
-def _integrate(derivatives, kick, control, steps, horizon, points) -> Run:
+def _integrate(
+    derivatives: Callable[..., Any],
+    kick: Callable[..., Any],
+    control: Callable[..., Any],
+    steps: Sequence[tuple[float, float]],
+    horizon: float,
+    points: int,
+) -> ScheduledRun:
     from scipy.integrate import solve_ivp
 
     def ran_away(t: float, state: np.ndarray, *_: Any) -> float:
         return abs(state[0]) - RUNAWAY
 
-    ran_away.terminal = True
+    ran_away.terminal = True  # type: ignore[attr-defined]  # how SciPy is told
     state, level, parts, diverged = np.zeros(3), 0.0, [], False
     for start, end, now in _segments(steps, horizon):
         state = kick(state, now - level)
@@ -190,10 +196,11 @@ def _integrate(derivatives, kick, control, steps, horizon, points) -> Run:
             break
         state = found.y[:, -1]
         parts[-1] = parts[-1][:, :-1] if end < horizon else parts[-1]
-    return Run(*np.hstack(parts), diverged)
+    t, y, v, u, w = np.hstack(parts)
+    return ScheduledRun(t, y, v, u, w, diverged)
 
 
-def open_loop(steps: Sequence[tuple[float, float]], horizon: float, points: int = 4500) -> Run:
+def open_loop(steps: Sequence[tuple[float, float]], horizon: float, points: int = 4500) -> ScheduledRun:
     """The plant from rest at y = 0 under a staircase input.
 
     steps: (time [s], level of u), the first at 0. horizon [s]. points: samples over the whole horizon.
@@ -237,7 +244,7 @@ def closed_loop(
     structure: str = "inside",
     derivative: str = "error",
     points: int = 4500,
-) -> Run:
+) -> ScheduledRun:
     """The plant from rest under a PID regulator with scheduled settings and an ideal derivative.
 
         inside    u = K (e + Td e') + z,  z' = K/Ti e          outside   u = K (e + Td e' + q/Ti),  q' = e
@@ -266,14 +273,12 @@ def closed_loop(
     return _integrate(derivatives, kick, control, steps, horizon, points)
 
 
-def local_model(u_from: float, u_to: float, settle: float = 80.0):
+def local_model(u_from: float, u_to: float, settle: float = 80.0) -> StepData:
     """The first-order model with dead time (`experiments.data.StepData`) of the plant for one step of its input.
 
     u_from >= 0, u_to > u_from [u]. settle [s]: how long the plant rests at u_from before the step.
     Raises ScheduleError for other inputs: the plant has no steady state for u < 0.
     """
-    from loopbook.experiments.two_points import PARTS, fit
-
     if not 0 <= u_from < u_to:
         raise ScheduleError(f"the step goes from u = {u_from:g} to {u_to:g}; it must rise and start at 0 or above")
     low, high = static_output(u_from), static_output(u_to)
@@ -283,7 +288,7 @@ def local_model(u_from: float, u_to: float, settle: float = 80.0):
     return fit((high - low) / (u_to - u_from), t1, t2)
 
 
-def overshoots(run: Run, steps: Sequence[tuple[float, float]]) -> list[float]:
+def overshoots(run: ScheduledRun, steps: Sequence[tuple[float, float]]) -> list[float]:
     """Overshoot of each step of the set-point in % of that step; infinite where the run diverged during it."""
     ends = [t for t, _ in steps[1:]] + [float("inf")]
     found, before = [], 0.0

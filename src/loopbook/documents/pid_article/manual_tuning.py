@@ -13,11 +13,14 @@ from functools import cache
 import numpy as np
 
 from loopbook.controllers.pid_forms import PidStandard
+from loopbook.documents.open import printed
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
+from loopbook.process.frequency_response import ultimate
 from loopbook.process.transfer_function import Process
 from loopbook.response.step_metrics import sampled
 from loopbook.tuning.by_name import tune
+from notebook_reports.ledger.printed_data import Claim
 
 SETTINGS = ("K", "Ti", "Td")
 SAME = 1e-6
@@ -64,22 +67,34 @@ def _little(before: float, after: float, factor: float) -> bool:
     return abs(after / before - 1) < abs(factor - 1)
 
 
-Cell = Callable[[Behaviour, Behaviour, float], bool]
-CELLS: dict[tuple[str, str], tuple[str, Cell]] = {
-    ("K", "stability"): ("worse", lambda a, b, f: b.Ms > a.Ms),
-    ("K", "overshoot"): ("increases", lambda a, b, f: b.overshoot > a.overshoot + SAME),
-    ("K", "settling"): ("changes little", lambda a, b, f: _little(a.settling, b.settling, f)),
-    ("Ti", "stability"): ("better", lambda a, b, f: b.Ms < a.Ms),
-    ("Ti", "overshoot"): ("decreases", lambda a, b, f: b.overshoot < a.overshoot - SAME),
-    ("Ti", "settling"): ("decreases", lambda a, b, f: b.settling < a.settling),
-    ("Td", "stability"): ("better", lambda a, b, f: b.Ms < a.Ms),
-    ("Td", "overshoot"): ("decreases", lambda a, b, f: b.overshoot < a.overshoot - SAME),
-    ("Td", "settling"): (
-        "decreases a little",
-        lambda a, b, f: b.settling < a.settling and _little(a.settling, b.settling, f),
-    ),
+MEASURES: dict[str, Callable[[Behaviour, Behaviour], float]] = {
+    "stability": lambda a, b: 1 / b.Ms - 1 / a.Ms,
+    "overshoot": lambda a, b: b.overshoot - a.overshoot,
+    "settling": lambda a, b: b.settling - a.settling,
 }
-"""By (setting, quality): what the article says, and the test of it: before, after, factor of the setting."""
+"""By quality: its change from before to after, above zero where there is more of it."""
+CELLS: dict[tuple[str, str], str] = {
+    (setting, quality): f"cell-{letter}-{quality}"
+    for setting, letter in zip(SETTINGS, ("Kp", "Ti", "Td"), strict=True)
+    for quality in MEASURES
+}
+"""By (setting, quality): the claim that holds what the article says, in its field `effect` and in its words."""
+
+
+def said(cell: tuple[str, str]) -> Claim:
+    """What the article says of a cell."""
+    return printed("pid-article").claims[CELLS[cell]]
+
+
+def holds(cell: tuple[str, str], before: Behaviour, after: Behaviour, factor: float) -> bool:
+    """Does a cell hold for a change of its setting by a factor? A loop that became unstable overshoots without end."""
+    claim, quality = said(cell), cell[1]
+    lost = float("inf") in (after.overshoot, after.settling) and quality != "stability"
+    change = float("inf") if lost else MEASURES[quality](before, after)
+    if quality == "overshoot" and abs(change) <= SAME:
+        change = 0.0
+    right = claim.agrees("effect", change) if "effect" in claim.fields else True
+    return right and ("little" not in claim.says or _little(before.settling, after.settling, factor))
 
 
 def changed(pid: PidStandard, setting: str, factor: float) -> PidStandard:
@@ -104,7 +119,7 @@ def cells(loop: Loop, factor: float) -> dict[tuple[str, str], bool]:
     if before.Ms == float("inf"):
         raise ValueError("the table describes changes of a stable loop; this one is unstable")
     after = {s: behaviour(Loop(loop.process, changed(loop.regulator, s, factor))) for s in SETTINGS}
-    return {cell: test(before, after[cell[0]], factor) for cell, (_, test) in CELLS.items()}
+    return {cell: holds(cell, before, after[cell[0]], factor) for cell in CELLS}
 
 
 @dataclass(frozen=True)
@@ -150,8 +165,6 @@ def recipe(process: Process, share: float, derivative: float) -> float:
 
     Ku, Tu: ultimate gain and period of the process, which must have them. share, derivative >= 0: numbers.
     """
-    from loopbook.process.frequency_response import ultimate
-
     point = ultimate(process)
     Td = derivative * point.T180
     return peak_sensitivity(Loop(process, PidStandard(share / point.K180, point.T180, Td, c=1.0, Tf=Td / 10)))

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from derivations.errors import LoopbookError
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import simulate
 
 PERIODS, PER_PERIOD = 30, 400
 
 
-class NoLimitCycle(ValueError):
+class NoLimitCycle(LoopbookError):
     """The loop does not oscillate steadily: the gain is below the ultimate one."""
 
 

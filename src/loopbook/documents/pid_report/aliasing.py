@@ -5,6 +5,10 @@ Source: pid-report, section 4.1.
 
 import math
 
+from derivations.algebra import differences
+from derivations.pid import rc_filter
+from derivations.pid.rc_filter import time_constant_for
+
 
 def alias(frequency: float, h: float) -> float:
     """The frequency [Hz] in 0 ... 1/(2h) that a sine of a given frequency shows when it is sampled every h seconds.
@@ -34,13 +38,9 @@ def samples_of_delay(attenuation: float, order: int = 1) -> float:
     ``order`` equal first-order filters in series; each has the time constant of `derivations.pid.rc_filter`, and at low
     frequency a filter delays by its time constant.
     """
-    from derivations.algebra.differences import h
-    from derivations.pid.rc_filter import attenuation as a
-    from derivations.pid.rc_filter import time_constant_for
-
     if not attenuation > 1 or order < 1:
         raise ValueError(f"attenuation = {attenuation!r}, order = {order!r}: more than 1, and at least one filter")
-    return order * float(time_constant_for(order).subs({a: attenuation, h: 1}))
+    return order * float(time_constant_for(order).subs({rc_filter.attenuation: attenuation, differences.h: 1}))
 
 
 def phase_at(frequency: float, time_constant: float) -> float:

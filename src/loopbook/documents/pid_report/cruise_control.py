@@ -5,15 +5,17 @@ The car is a first-order lag from the control voltage [V] to the speed [km/h]; i
 Source: pid-report, chapters 1 to 3.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from loopbook.controllers import OnOff, Pid, PidSettings
+from loopbook.controllers.on_off import OnOff
+from loopbook.controllers.pid import Pid
+from loopbook.controllers.settings import PidSettings
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
 
-LIMITS = {"u_low": 0.0, "u_high": 10.0}
+LIMITS: Any = {"u_low": 0.0, "u_high": 10.0}
 
 
 def car(T: float, gain: float = 10.0, delay: float = 0.0) -> Process:
@@ -26,8 +28,8 @@ def uphill(T: float, h: float, throttle_fixed: bool) -> Simulation:
     controller = Pid(PidSettings(K=0.5, Ti=T, h=h, **LIMITS), I=9.0)
     if throttle_fixed:
         controller.manual(9.0)
-    hill = {"reference": 90.0, "load": lambda time: -0.8 * (time >= 20), "u_before": 9.0}
-    return simulate(car(T), controller, h, round(80 / h), **hill)
+    hill = lambda time: -0.8 * (time >= 20)  # noqa: E731
+    return simulate(car(T), controller, h, round(80 / h), reference=90.0, load=hill, u_before=9.0)
 
 
 class Swing(NamedTuple):

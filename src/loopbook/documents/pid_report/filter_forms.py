@@ -4,10 +4,17 @@ Each form is an equation of `derivations.pid.pid_updates` or `derivations.pid.ex
 sample.
 """
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import numpy as np
+
+from derivations.algebra import differences
+from derivations.algebra.differences import at, by_signals
+from derivations.pid import exact_filters as exact
+from derivations.pid import pid_updates as term
+from derivations.pid import rc_filter
 
 FILTERS = ("backward (4.9)", "Tustin", "exact, newest y", "exact, straight y")
 
@@ -17,22 +24,18 @@ def _gains(name: str) -> dict[str, Any]:
     """Gains (pole, on the newest y, on the y before) as functions of h and T_f."""
     import sympy
 
-    from derivations.algebra.differences import at, by_signals, h
-    from derivations.pid import exact_filters as exact
-    from derivations.pid import pid_updates as term
-    from derivations.pid.rc_filter import Tf
-
     if name not in FILTERS:
         raise ValueError(f"{name!r} is not a form of the filter; one of {', '.join(FILTERS)}")
-    equation = {
+    derive: dict[str, Callable[[], Any]] = {
         "backward (4.9)": lambda: term.low_pass().full(),
         "Tustin": term.low_pass_tustin,
         "exact, newest y": exact.low_pass_current,
         "exact, straight y": exact.low_pass_line,
-    }[name]()
-    gains = by_signals(equation.rhs)
+    }
+    gains = by_signals(derive[name]().rhs)
+    symbols = (differences.h, rc_filter.Tf)
     samples = {"pole": at("y_f", -1), "now": at("y"), "before": at("y", -1)}
-    return {key: sympy.lambdify((h, Tf), gains.get(s, sympy.Integer(0)), "math") for key, s in samples.items()}
+    return {key: sympy.lambdify(symbols, gains.get(s, sympy.Integer(0)), "math") for key, s in samples.items()}
 
 
 def pole(name: str, h: float, Tf: float) -> float:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from loopbook.controllers import Pid, PidSettings
+from loopbook.controllers.pid import Pid
+from loopbook.controllers.settings import PidSettings
 
 
 def swing(t: np.ndarray) -> np.ndarray:

@@ -1,7 +1,9 @@
 """The document's own programs, as they stand in figures 4.7 and 4.9 to 4.13, to be run and compared."""
 
+import ast
 from typing import Any
 
+from derivations.programs import pid_code as code
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings
 
@@ -33,8 +35,6 @@ class ProgramController:
 
     @staticmethod
     def state_names(figure: str) -> tuple[str, ...]:
-        from derivations.programs import pid_code as code
-
         program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
         return tuple(s.name for s in program.states())
 
@@ -52,3 +52,16 @@ class ProgramController:
         self.u, self.v = result["u"], result["v"]
         self.states = {name: result[name] for name in self.states}
         return self.u
+
+
+def parses(line: str) -> bool:
+    """Can a printed line be read as a statement at all?
+
+    >>> parses("ki = a/Kp"), parses("ki = a/K p")
+    (True, False)
+    """
+    try:
+        ast.parse(line)
+    except SyntaxError:
+        return False
+    return True

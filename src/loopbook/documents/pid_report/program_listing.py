@@ -2,13 +2,12 @@
 
 from typing import Any
 
+from derivations.programs.pid_code import statement
 from notebook_reports.display import Table
 
 
 def listing(program: Any) -> Table:
     """The assignments of a `derivations.programs.pid_code.Program` in the order they run, with equation numbers."""
-    from derivations.programs.pid_code import statement
-
     groups = (
         ("when a setting changes", program.gains),
         ("between y and u", program.before),

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from loopbook.controllers import Pid, PidSettings
+from loopbook.controllers.pid import Pid
+from loopbook.controllers.settings import PidSettings
 
 
 def saturated_sine(h: float, seconds: float = 8.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.controllers import Pid, PidSettings
+from loopbook.controllers.pid import Pid
+from loopbook.controllers.settings import PidSettings
 from loopbook.documents.pid_report.printed_programs import ProgramController
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
@@ -99,7 +100,8 @@ class _Changing:
     def __init__(self, bumpless: str, new: dict[str, float]):
         start = settings(u_low=-100.0, u_high=100.0)
         self.pid = Pid(start, I=1.0, x=start.K * start.Td / (start.Tf + start.h))
-        self.bumpless, self.new, self.integral = bumpless, new, []
+        self.bumpless, self.new = bumpless, new
+        self.integral: list[float] = []
 
     def step(self, y: float, y_sp: float) -> float:
         if len(self.integral) == round(1 / H):

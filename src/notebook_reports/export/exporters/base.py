@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from nbconvert.exporters.templateexporter import TemplateExporter
-from traitlets import Bool, Enum, Unicode, default
+from traitlets import Bool, Unicode, default
 
 from notebook_reports.export.errors import ExportError, Problem
 from notebook_reports.export.formulas import as_mathml, as_text, as_typst
@@ -15,10 +15,12 @@ from notebook_reports.export.mends import MODES, lines
 from notebook_reports.export.model import Display, Math, Report, walk
 from notebook_reports.export.read.notebook import read
 from notebook_reports.export.write.typst_engine import TypstFailed, cell_finder, explain
+from notebook_reports.mathematics import MathError
 
 TEMPLATES = Path(__file__).parent / "templates"
 
 CONTENTS_FROM = 3
+"""Headings from which on a report has a table of contents."""
 
 
 class ReportExporter(TemplateExporter):
@@ -32,8 +34,7 @@ class ReportExporter(TemplateExporter):
     language = Unicode("en", help="Language of the text, for readers and hyphenation.").tag(config=True)
     author = Unicode("loopbook", help="Author in the metadata.").tag(config=True)
     strict_alt = Bool(False, help="Fail where a picture has no alternative text.").tag(config=True)
-    mode = Enum(
-        MODES,
+    mode = Unicode(
         "mend",
         help="What cannot be shown: a numbered box in its place and a list at the end (mend), or an error (strict).",
     ).tag(config=True)
@@ -41,12 +42,12 @@ class ReportExporter(TemplateExporter):
     export_from_notebook = None
 
     @default("extra_template_basedirs")
-    def _own_templates(self):
+    def _own_templates(self) -> list[str]:
         return [str(TEMPLATES)]
 
     def report(self, nb: Any, resources: dict[str, Any]) -> Report:
         """Read the notebook. Raises ExportError."""
-        told = {key: value for key, value in resources.get("loopbook", {}).items() if value != ""}
+        told = {key: value for key, value in resources.get("loopbook", {}).items() if value not in ("", None)}
         metadata = resources.get("metadata") or {}
         particulars = {
             "name": metadata.get("name") or "notebook",
@@ -58,7 +59,11 @@ class ReportExporter(TemplateExporter):
             "strict_alt": self.strict_alt,
             "mode": self.mode,
         }
-        return read(nb, **{**particulars, **told})
+        wanted = {**particulars, **told}
+        if wanted["mode"] not in MODES:
+            problem = f"the mode is one of {', '.join(MODES)}, got {wanted['mode']!r}"
+            raise ExportError(wanted["name"], [Problem(None, problem)])
+        return read(nb, **wanted)
 
     def mended(self, resources: dict[str, Any]) -> bool:
         """Is this export one that mends what it cannot show?"""
@@ -67,15 +72,16 @@ class ReportExporter(TemplateExporter):
     def tell(self, report: Report, resources: dict[str, Any]) -> None:
         """Say what was mended, on the standard error of the nbconvert command, and in the resources."""
         resources["loopbook_mends"] = report.mends
+        resources["loopbook_report"] = report
         for line in lines(report):
             self.log.warning(line)
 
-    def from_filename(self, filename, resources=None, **kw):
+    def from_filename(self, filename: str, resources: Any = None, **kw: Any) -> tuple[Any, Any]:
         """What nbconvert's command calls; a notebook that cannot be exported is one message there, not a traceback."""
         with one_message():
             return super().from_filename(filename, resources=resources, **kw)
 
-    def from_file(self, file_stream, resources=None, **kw):
+    def from_file(self, file_stream: Any, resources: Any = None, **kw: Any) -> tuple[Any, Any]:
         """The same for a stream."""
         with one_message():
             return super().from_file(file_stream, resources=resources, **kw)
@@ -111,7 +117,7 @@ def support_files() -> dict[str, bytes]:
 def contents_depth(report: Report) -> int:
     """How many levels of headings the table of contents shows; 0 for none."""
     levels = [heading.level for heading in report.headings]
-    if len(levels) < CONTENTS_FROM:
+    if len(levels) < CONTENTS_FROM or not report.contents:
         return 0
     return 2 if sum(level <= 2 for level in levels) <= 30 else 1
 
@@ -125,8 +131,6 @@ def as_export_error(error: TypstFailed, name: str) -> ExportError:
 
 def problems(report: Report, form: str) -> list[Problem]:
     """Every formula of a report that the converter to "typst" or "mathml" refuses."""
-    from notebook_reports.mathematics import MathError
-
     convert = as_typst if form == "typst" else as_mathml
     found = []
     for cell in report.cells:

@@ -13,9 +13,8 @@ from typing import Any
 from notebook_reports.export.errors import ExportError, Problem
 
 FORMATS = ("pdf", "html")
-ENGINES = ("typst", "latex")
 
-__all__ = ["ENGINES", "FORMATS", "ExportError", "Problem", "export"]
+__all__ = ["FORMATS", "ExportError", "Problem", "export"]
 
 
 def export(
@@ -27,25 +26,22 @@ def export(
     document: str = "",
     chapter: str = "",
     language: str = "en",
-    engine: str = "typst",
     assets: Path | None = None,
     strict_alt: bool = True,
     mode: str = "strict",
+    root: Path | None = None,
 ) -> bytes:
     """The report of one executed notebook.
 
     nb: a notebook node of nbformat 4. format: "pdf" or "html". name: "folder/notebook", as errors and links call it.
-    title: default the first top heading. document, chapter: for the title block and the running head. engine: "typst",
-    or "latex" where TeX and pandoc are installed. assets: the folder where relative images are looked up.
+    title: default the first top heading. document, chapter: for the title block and the running head. assets: the
+    folder where relative images are looked up; root: the folder below which they have to lie, default the same.
     strict_alt: a picture without alternative text is an error. mode: "strict", or "mend", which shows a numbered box in
     place of what a page cannot show and lists all of them at its end.
-    Equal input gives equal bytes. Raises ExportError; ValueError for an unknown format or engine.
+    Equal input gives equal bytes. Raises ExportError; ValueError for an unknown format.
     """
     if format not in FORMATS:
         raise ValueError(f"format is one of {', '.join(FORMATS)}, got {format!r}")
-    if engine not in ENGINES:
-        raise ValueError(f"engine is one of {', '.join(ENGINES)}, got {engine!r}")
-    kind = "latex" if format == "pdf" and engine == "latex" else format
     told = {
         "name": name,
         "title": title,
@@ -54,23 +50,20 @@ def export(
         "language": language,
         "strict_alt": strict_alt,
         "mode": mode,
+        "root": root,
     }
     metadata = {"name": name.rpartition("/")[2], **({} if assets is None else {"path": str(assets)})}
-    output, _ = _exporter(kind).from_notebook_node(nb, {"metadata": metadata, "loopbook": told})
+    output, _ = _exporter(format).from_notebook_node(nb, {"metadata": metadata, "loopbook": told})
     return output.encode() if isinstance(output, str) else output
 
 
 @functools.cache
-def _exporter(kind: str) -> Any:
-    """One exporter of each kind for the whole process: making one costs more than a report."""
-    if kind == "pdf":
+def _exporter(format: str) -> Any:
+    """One exporter of each format for the whole process: making one costs more than a report."""
+    if format == "pdf":
         from notebook_reports.export.exporters.pdf import PdfExporter
 
         return PdfExporter()
-    if kind == "html":
-        from notebook_reports.export.exporters.html import HtmlExporter
+    from notebook_reports.export.exporters.html import HtmlExporter
 
-        return HtmlExporter()
-    from notebook_reports.export.exporters.latex import LatexPdfExporter
-
-    return LatexPdfExporter()
+    return HtmlExporter()

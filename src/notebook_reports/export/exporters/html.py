@@ -15,6 +15,7 @@ from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, Rep
 from notebook_reports.export.mends import number
 from notebook_reports.export.model import Heading, Report, words_only
 from notebook_reports.export.write.html import HtmlWriter
+from notebook_reports.export.write.mathematics_font import font_face
 from notebook_reports.export.write.mending import mend_formulas
 
 
@@ -55,14 +56,14 @@ class HtmlExporter(ReportExporter):
     output_mimetype = "text/html"
 
     @default("file_extension")
-    def _file_extension_default(self):
+    def _file_extension_default(self) -> str:
         return ".html"
 
     @default("template_name")
-    def _template_name_default(self):
+    def _template_name_default(self) -> str:
         return "loopbook_html"
 
-    def from_notebook_node(self, nb, resources=None, **kw):
+    def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> tuple[Any, Any]:
         """The HTML text, and the resources."""
         resources = self._init_resources(resources)
         report = self.report(nb, resources)
@@ -87,4 +88,5 @@ class HtmlExporter(ReportExporter):
             "contents": contents(report, HtmlWriter(report.name)),
             "escape": escape,
         }
-        return self.template.render(**page)
+        text = self.template.render(**page)
+        return text.replace("<style>\n", f"<style>\n{face}\n", 1) if (face := font_face(text)) else text

@@ -31,15 +31,15 @@ class PdfExporter(ReportExporter):
     output_mimetype = "application/pdf"
 
     @default("file_extension")
-    def _file_extension_default(self):
+    def _file_extension_default(self) -> str:
         return ".pdf"
 
     @default("template_extension")
-    def _template_extension_default(self):
+    def _template_extension_default(self) -> str:
         return ".typ.j2"
 
     @default("template_name")
-    def _template_name_default(self):
+    def _template_name_default(self) -> str:
         return "loopbook_pdf"
 
     def report(self, nb: Any, resources: dict[str, Any]) -> Report:
@@ -59,12 +59,12 @@ class PdfExporter(ReportExporter):
 
     def written(self, report: Report, turned: frozenset[str] = frozenset()) -> Written:
         """The same, and the tables written, by the names that the engine calls them."""
-        writer = TypstWriter(report.name, turned=turned)
+        writer = TypstWriter(report.name, turned=turned, naming=report.mended)
         told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": literal}
         text = self.template.render(**told, functions=IMPORT)
         return text, {**support_files(), **writer.files}, writer.grids
 
-    def from_notebook_node(self, nb, resources=None, **kw):
+    def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> tuple[Any, Any]:
         """The PDF's bytes, and the resources."""
         resources = self._init_resources(resources)
         report = self.report(nb, resources)

@@ -18,7 +18,7 @@ Rule = tuple[str, dict[str, str]]
 
 
 @dataclass(frozen=True)
-class Look:
+class Appearance:
     """ink, ground: "#rrggbb" or "". align: left, right, center or "". width, height: CSS pixels; share: of the room."""
 
     hidden: bool = False
@@ -33,7 +33,7 @@ class Look:
     share: float | None = None
 
 
-PLAIN = Look()
+PLAIN = Appearance()
 
 
 class Looks:
@@ -57,7 +57,7 @@ class Looks:
             for tag in found:
                 self._asked.setdefault(id(tag), {}).update(declarations)
 
-    def of(self, tag: Tag) -> Look:
+    def of(self, tag: Tag) -> Appearance:
         """The look of one element by itself; that of the elements around it is theirs."""
         asked = self._asked.get(id(tag), {})
         own = tag.attrs
@@ -85,13 +85,13 @@ def _look(
     width: str,
     height: str,
     hidden: bool,
-) -> Look:
+) -> Appearance:
     told = {"color": color, "background-color": bgcolor, "text-align": align, "width": width, "height": height}
     told |= {**dict(asked), **declarations(style)}
     ground = told.get("background-color") or told.get("background", "")
     wide = told["width"] if told["width"] not in ("", "auto") else told.get("max-width", "")
     share = re.fullmatch(r"\s*([\d.]+)\s*%\s*", wide)
-    look = Look(
+    look = Appearance(
         hidden=hidden or told.get("display") == "none" or told.get("visibility") == "hidden",
         ink=color_of(told["color"]),
         ground=color_of(ground),

@@ -40,7 +40,7 @@ from notebook_reports.export.model import (
     plain,
 )
 from notebook_reports.export.read import html_tables, pictures
-from notebook_reports.export.read.css import Look, Looks
+from notebook_reports.export.read.css import Appearance, Looks
 from notebook_reports.export.read.flat import flat
 from notebook_reports.export.read.html_names import (
     BLOCKS,
@@ -60,6 +60,7 @@ from notebook_reports.export.read.terminal import visible
 _NOT_SHOWN = (Comment, Declaration, Doctype, ProcessingInstruction, CData)
 _HEADING = re.compile(r"h[1-6]")
 _LINE = {*STYLES, *CODE, *THROUGH, *CONTROLS, "a", "br", "img", "image", "x-math", "x-text", "x-svg", "math"}
+_FOR_FORMULAS = re.compile(r"\A\s*(/\*.*?\*/\s*|//[^\n]*\n\s*)*MathJax\.Hub\.Config\(", re.DOTALL)
 _NO_SCRIPT = re.compile(r"json|template|html|math/tex|plain|glsl|x-shader")
 
 
@@ -147,7 +148,7 @@ class HtmlReader:
             return [*named, Alert(_alert_kind(_classes(tag)), inside)]
         return named + self.wrapped(tag, look, inside)
 
-    def known_block(self, tag: Tag, math: bool, look: Look) -> list[Block]:
+    def known_block(self, tag: Tag, math: bool, look: Appearance) -> list[Block]:
         match tag.name:
             case "table":
                 return html_tables.read(self, tag, math)
@@ -180,7 +181,7 @@ class HtmlReader:
             with_math(text, self.reading)
         return []
 
-    def wrapped(self, tag: Tag, look: Look, blocks: list[Block]) -> list[Block]:
+    def wrapped(self, tag: Tag, look: Appearance, blocks: list[Block]) -> list[Block]:
         """The blocks inside an element that belongs in a line, such as ``<font><p>``, its look on their words."""
         for block in blocks:
             if isinstance(block, Paragraph | Heading):
@@ -209,15 +210,24 @@ class HtmlReader:
 
     def definitions(self, tag: Tag, math: bool) -> Definitions:
         items: list[tuple[list[Inline], list[Block]]] = []
-        for child in tag.find_all(["dt", "dd"]):
-            if child.find_parent("dl") is not tag:
-                continue
-            if child.name == "dt":
+        for child in tag.children:
+            name = child.name if isinstance(child, Tag) else ""
+            if name == "dt":
                 items.append((self.line(child, math), []))
-            elif items:
-                items[-1][1].extend(self.blocks(child, math))
+                continue
+            if name == "div":
+                items += self.definitions(child, math).items
+                continue
+            if name == "dd":
+                body = self.blocks(child, math)
+            elif name and not self.is_inline(child):
+                body = self.block(child, math)
             else:
-                items.append(([], self.blocks(child, math)))
+                body = flow(self.inline(child, math))
+            if body and items:
+                items[-1][1].extend(body)
+            elif body:
+                items.append(([], body))
         return Definitions(items)
 
     def figure(self, tag: Tag, math: bool) -> list[Block]:
@@ -239,7 +249,7 @@ class HtmlReader:
             if "math/tex" in type_:
                 text = tag.get_text()
                 return self.reading.display(text) if "display" in type_ else flow(self.reading.math(text))
-            if _NO_SCRIPT.search(type_):
+            if _NO_SCRIPT.search(type_) or _FOR_FORMULAS.search(tag.get_text()):
                 return []
         if tag.name == "frameset":
             return [block for child in tag.find_all("frame") for block in self.embedded(child, math)]
@@ -318,7 +328,7 @@ class HtmlReader:
             return [*anchor, Link(str(tag["href"]), _no_display(inside))]
         return [*anchor, *self.dressed(tag, look, inside)]
 
-    def dressed(self, tag: Tag, look: Look, inside: list[Any]) -> list[Any]:
+    def dressed(self, tag: Tag, look: Appearance, inside: list[Any]) -> list[Any]:
         """The nodes with the emphasis and the colours of their element."""
         wraps: list[Callable[[list[Inline]], Inline]] = []
         styles = [STYLES[tag.name]] if tag.name in STYLES else []
@@ -358,12 +368,12 @@ class HtmlReader:
 
     def picture_from(self, url: str, alt: str, tag: Tag) -> Picture:
         """The picture at an address, in the size its element asks for. Raises CannotShow."""
-        picture = pictures.from_url(url, alt, self.reading.attachments, self.reading.folder)
+        picture = pictures.from_url(url, alt, self.reading.attachments, self.reading.folder, self.reading.root)
         look = self.looks.of(tag)
         picture.width, picture.height, picture.share = look.width, look.height, look.share
         return picture
 
-    def drawing(self, tag: Tag, look: Look) -> list[Inline]:
+    def drawing(self, tag: Tag, look: Appearance) -> list[Inline]:
         """An SVG that stands in the HTML; one of no size, or without anything to see, is nothing."""
         svg = self.drawings[int(str(tag["data-index"]))]
         body = re.sub(

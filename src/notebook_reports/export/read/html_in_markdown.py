@@ -14,7 +14,7 @@ from notebook_reports.export.read.html_names import CODE, STYLES, THROUGH, is_no
 
 VOID = {"br", "img", "hr", "wbr", "input", "link", "meta", "source", "track", "col", "area", "base", "embed", "param"}
 _IMPLIED_END = {"p", "li", "td", "th", "tr", "dt", "dd", "tbody", "thead", "option"}
-_SIMPLE = {*STYLES, *CODE, *(THROUGH - {"picture", "ruby", "rt", "noscript"}), "a", "br", "img", "hr", "wbr"}
+_SIMPLE = {*STYLES, *CODE, *(THROUGH - {"picture", "ruby", "rt", "noscript"}), "a", "br", "img", "wbr"}
 PLUGINS = ("strikethrough", "table", "url", "task_lists", "def_list", "footnotes")
 
 

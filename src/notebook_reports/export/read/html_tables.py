@@ -1,30 +1,46 @@
 """Tables in HTML: their head, their spans, the looks of their cells."""
 
 import re
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
-from bs4 import Tag
+from bs4 import BeautifulSoup, NavigableString, Tag
 
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Block, Cell, Mend, Styled
+from notebook_reports.export.model import Block, Cell, Inline, Mend, Styled
+from notebook_reports.export.read.css import Looks
+from notebook_reports.export.read.reading import Reading, flow
 from notebook_reports.export.read.tables import MAX_ROWS, align_numbers, place
 
-if TYPE_CHECKING:
-    from notebook_reports.export.read.html import HtmlReader
+
+class CellReader(Protocol):
+    """What reads the cells; see `html.HtmlReader`."""
+
+    reading: Reading
+    looks: Looks
+
+    def blocks(self, parent: Tag, math: bool) -> list[Block]: ...
+    def line(self, tag: Tag, math: bool) -> list[Inline]: ...
+    def inline(self, node: Any, math: bool) -> list[Inline]: ...
+    def block(self, node: Any, math: bool) -> list[Block] | None: ...
+    def is_inline(self, node: Any) -> bool: ...
+
 
 _MOST_SPAN = 1000
+_PARTS = {"thead", "tbody", "tfoot", "tr", "td", "th", "caption", "colgroup", "col", "style", "template"}
 
 
-def read(reader: "HtmlReader", tag: Tag, math: bool) -> list[Block]:
+def read(reader: CellReader, tag: Tag, math: bool) -> list[Block]:
     """The table; of one that only arranges other blocks, these one after the other. Raises CannotShow."""
+    strays = _strays(reader, tag, math)
     if tag.find("table") or (reader.reading.mending and _arranges(tag)):
         if not reader.reading.mending:
             raise CannotShow("an HTML table inside a table cell; show the tables one after the other")
         cells = [c for c in tag.find_all(["th", "td", "caption"]) if c.find_parent("table") is tag]
-        return [block for cell in cells if not reader.looks.of(cell).hidden for block in reader.blocks(cell, math)]
+        seen = [cell for cell in cells if not reader.looks.of(cell).hidden]
+        return [*strays, *(block for cell in seen for block in reader.blocks(cell, math))]
     caption = tag.find("caption")
     sections: dict[str, list[Tag]] = {"thead": [], "tbody": [], "tfoot": []}
-    for row in tag.find_all("tr"):
+    for row in [row for row in tag.find_all("tr") if row.find_parent("table") is tag]:
         if not reader.looks.of(row).hidden:
             sections[row.parent.name if row.parent.name in sections else "tbody"].append(row)
     head = sections["thead"]
@@ -43,11 +59,35 @@ def read(reader: "HtmlReader", tag: Tag, math: bool) -> list[Block]:
         for row in rows
     ]
     if not any(cells):
-        return []
+        return strays
     grid = place(cells, min(len(head), len(rows)))
     align_numbers(grid)
     grid.caption = reader.line(caption, math) if caption and not reader.looks.of(caption).hidden else []
-    return [grid, *after]
+    return [*strays, grid, *after]
+
+
+def _strays(reader: CellReader, tag: Tag, math: bool) -> list[Block]:
+    """What stands in the table outside of its cells; cells outside of a row get a row of their own."""
+    strays: list[Block] = []
+    own = [part for part in tag.find_all(["thead", "tbody", "tfoot", "tr"]) if part.find_parent("table") is tag]
+    for part in [tag, *own]:
+        if part is not tag and tag not in part.parents:
+            continue  # it was inside of something stray
+        row = None
+        for child in list(part.children):
+            name = child.name if isinstance(child, Tag) else ""
+            if name in ("td", "th") and part.name != "tr":
+                if row is None:
+                    row = BeautifulSoup("<tr></tr>", "html.parser").tr
+                    child.insert_before(row)
+                row.append(child.extract())
+                continue
+            row = row if not name and not str(child).strip() else None
+            if name not in _PARTS and (name or (type(child) is NavigableString and child.strip())):
+                blocks = reader.block(child, math) if name and not reader.is_inline(child) else None
+                strays += flow(reader.inline(child, math)) if blocks is None else blocks
+                child.extract()
+    return strays
 
 
 def _arranges(tag: Tag) -> bool:
@@ -59,7 +99,7 @@ def _arranges(tag: Tag) -> bool:
     return bool(blocks) or (len(cells) == 1 and len(tag.get_text().split()) > 40)
 
 
-def _cell(reader: "HtmlReader", tag: Tag, math: bool) -> Cell:
+def _cell(reader: CellReader, tag: Tag, math: bool) -> Cell:
     spans = {key: _span(tag, key) for key in ("colspan", "rowspan")}
     look = reader.looks.of(tag)
     children = reader.line(tag, math)

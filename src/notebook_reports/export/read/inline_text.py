@@ -1,18 +1,18 @@
-"""Inline text of tables and captions: plain characters, ``$mathematics$`` and `` `code` ``; ``\\$`` is a dollar."""
+"""Inline text of tables and captions: plain characters, ``$mathematics$``, `` `code` ``; a backslash escapes a sign."""
 
 import re
 
 from notebook_reports.export.errors import CannotShow
 from notebook_reports.export.model import Code, Inline, Math, Text
 
-_PIECE = re.compile(r"(?P<dollar>\\\$)|\$(?P<math>(?:\\\$|[^$])+)\$|`(?P<code>[^`]+)`|(?P<stray>\$)")
+_PIECE = re.compile(r"\\(?P<sign>[$`])|\$(?P<math>(?:\\\$|[^$])+)\$|`(?P<code>[^`]+)`|(?P<stray>\$)")
 
 
 def read_inline(text: str) -> list[Inline]:
     """Split inline text into nodes. Raises CannotShow for a ``$`` without its partner.
 
     >>> read_inline("gain $K$ in `W/K`")
-    [Text(text='gain '), Math(latex='K'), Text(text=' in '), Code(text='W/K')]
+    [Text(text='gain '), Math(latex='K', small=False), Text(text=' in '), Code(text='W/K')]
     """
     nodes: list[Inline] = []
 
@@ -26,8 +26,8 @@ def read_inline(text: str) -> list[Inline]:
     for found in _PIECE.finditer(text):
         add(text[at : found.start()])
         at = found.end()
-        if found["dollar"]:
-            add("$")
+        if found["sign"]:
+            add(found["sign"])
         elif found["math"]:
             nodes.append(Math(found["math"].strip()))
         elif found["code"]:

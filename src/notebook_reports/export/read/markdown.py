@@ -15,12 +15,14 @@ from notebook_reports.export.model import (
     Code,
     Definitions,
     Display,
+    Figure,
     Heading,
     Inline,
     Item,
     Link,
     Listing,
     Math,
+    Mend,
     Note,
     Paragraph,
     Quote,
@@ -85,7 +87,7 @@ class _Cell:
     def blocks(self, tokens: list[dict[str, Any]]) -> list[Block]:
         blocks: list[Block] = []
         for token in tokens:
-            blocks.extend(self.reading.attempt(lambda token=token: self.block(token), token.get("raw", "")))
+            blocks.extend(self.reading.attempt(lambda token=token: self.block(token), _written(token)))
         return blocks
 
     def block(self, token: dict[str, Any]) -> list[Block]:
@@ -171,7 +173,9 @@ class _Cell:
             opening = re.fullmatch(r"<([A-Za-z0-9]+)(\s[^>]*)?>", raw, re.DOTALL)
             if raw.startswith("<!--"):
                 continue
-            if closing:
+            if closing and closing[1].lower() == "br":
+                stack[-1][2].append(Break())
+            elif closing:
                 name = closing[1].lower()
                 if stack[-1][0] != name:
                     raise CannotShow(f"HTML {raw} that closes nothing in its paragraph")
@@ -237,7 +241,7 @@ class _Cell:
     def image(self, token: dict[str, Any]) -> Inline:
         url = html.unescape(token["attrs"]["url"])
         alt = self.reading.alt(plain(_lines_only(self.inline(token["children"]))), f"the image {url[:60]}")
-        return pictures.from_url(url, alt, self.reading.attachments, self.reading.folder)
+        return pictures.from_url(url, alt, self.reading.attachments, self.reading.folder, self.reading.root)
 
     def note(self, key: str) -> Note:
         known = next((k for k in self.notes if k.lower() == key.lower()), None)
@@ -253,14 +257,17 @@ class _Cell:
         return Note(numbers[known], self.blocks(self.notes[known]))
 
 
+def _written(token: dict[str, Any]) -> str:
+    """What is written in a token and below."""
+    return token.get("raw", "") + " ".join(_written(child) for child in token.get("children") or ())
+
+
 def _lines_only(nodes: list[Inline | Display]) -> list[Inline]:
     """Nodes for a place that has no room for a displayed formula, such as a table cell."""
     return [Math(node.latex) if isinstance(node, Display) else node for node in nodes]
 
 
 def _line_of(block: Block, raw: str) -> list[Inline]:
-    from notebook_reports.export.model import Figure, Mend
-
     match block:
         case Mend():
             return [block]

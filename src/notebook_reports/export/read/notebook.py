@@ -1,5 +1,6 @@
 """A notebook read into a report: its title, its cells as blocks, its numbers, its links settled."""
 
+import difflib
 import posixpath
 import re
 from pathlib import Path
@@ -38,6 +39,7 @@ from notebook_reports.export.read.terminal import visible
 NO_INPUT = {"remove-input", "hide-input", "remove_input", "hide_input"}
 NO_OUTPUT = {"remove-output", "remove_output"}
 NO_CELL = {"remove-cell", "remove_cell"}
+NEW_PAGE = "new-page"
 _SCHEME = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*):")
 _NUMBERED = re.compile(r"\s*(\d+(\.\d+)*[.):]?|[IVX]+\.|[A-Z]\.|§.*)\s")
 
@@ -53,13 +55,15 @@ def read(
     folder: Path | None = None,
     strict_alt: bool = False,
     mode: str = "strict",
+    root: Path | None = None,
 ) -> Report:
     """Read a notebook (nbformat 4). Raises ExportError that names every cell which holds what no page can show.
 
     The title is the one given, else the first top heading, else the last part of `name`. name: "folder/notebook", as
-    links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes.
+    links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes. folder:
+    where relative images are looked up; root: below which they have to lie, default the folder.
     """
-    reading = Reading(folder, document, strict_alt, mode == "mend")
+    reading = Reading(folder, document, strict_alt, mode == "mend", root)
     sources = _markdown_sources(notebook)
     reading.footnotes, reading.note_references = footnotes(sources), references(sources)
     cells = []
@@ -68,13 +72,15 @@ def read(
         reading.attachments = cell.get("attachments") or {}
         blocks = _cell(cell, reading, _language(notebook))
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
-        cells.append(ReportCell(number, blocks, anchor))
+        cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
     first = _take_title(cells)
     words = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
     words = words_only(words)
     report = Report(name, words, first.anchor if first else "", cells, document, chapter, language, author)
+    report.contents = bool(notebook.get("metadata", {}).get("loopbook", {}).get("contents", True))
     if title and title not in (report.plain_title, plain(words)):
         report.title = [Text(title)]
+    report.mended = reading.mending
     report.aliases = plain_headings(cells)
     level_headings(cells)
     number_blocks(cells)
@@ -266,8 +272,6 @@ def settle_link(link: Link, name: str, anchors: set[str], folder: Path | None, t
         if found is None and tolerant and _letters(wanted):
             found = next((a for a in sorted(anchors) if _letters(a) == _letters(wanted)), None)
         if found is None:
-            import difflib
-
             near = difflib.get_close_matches(wanted, sorted(anchors), 1, 0.5)
             hint = f"; did you mean #{near[0]}?" if near else ""
             told = "it leads to a place that is nowhere in this notebook"

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
+from notebook_reports.export import scripts
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Block, Display, Figure, Listing, Mend
+from notebook_reports.export.model import Block, Display, Figure, Listing, Live, Mend
 from notebook_reports.export.read import pictures
 from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.inline_text import read_inline
@@ -58,6 +59,12 @@ def _merged(outputs: list[Any]) -> list[Any]:
 
 def _bundle(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     """The first form that a page can show. An output without data is nothing."""
+    for mime in data:
+        if mime not in _FORMS and mime in scripts.offered():
+            rest = {other: content for other, content in data.items() if other != mime}
+            if not rest:
+                raise CannotShow(f"an output that exists only as {mime}; give it a form for paper too")
+            return [Live(mime, data[mime], *scripts.shown(mime, data[mime]), _bundle(rest, metadata, reading))]
     data = {mime: content for mime, content in data.items() if content not in ("", [], None)}
     refused: list[CannotShow] = []
     for mime, read in _FORMS.items():

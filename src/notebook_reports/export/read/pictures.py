@@ -8,6 +8,7 @@ from urllib.parse import unquote, unquote_to_bytes
 
 from notebook_reports.export.errors import CannotShow
 from notebook_reports.export.model import Picture
+from notebook_reports.export.read.sanitise import drawing
 
 KINDS = {
     "image/svg+xml": "svg",
@@ -33,8 +34,14 @@ def from_bundle(mime: str, content: str, alt: str, width: float | None = None, h
     return checked(Picture(data, kind, alt, width, height))
 
 
-def from_url(url: str, alt: str, attachments: dict[str, dict[str, str]], folder: Path | None) -> Picture:
-    """The picture a Markdown cell names. Raises CannotShow where there is none."""
+def from_url(
+    url: str, alt: str, attachments: dict[str, dict[str, str]], folder: Path | None, root: Path | None
+) -> Picture:
+    """The picture a Markdown cell names. root: the folder below which files are shown, default `folder`.
+
+    Raises CannotShow where there is none, or where it lies elsewhere: a report shows nothing of the machine that made
+    it but what its project holds.
+    """
     if url.startswith("data:"):
         mime, _, content = url[5:].partition(",")
         mime, *options = mime.split(";")
@@ -74,8 +81,15 @@ def from_url(url: str, alt: str, attachments: dict[str, dict[str, str]], folder:
         told = f"the image {url} is none of {', '.join(sorted(_SUFFIXES))}"
         raise CannotShow(told, "image", "a page cannot show a file of its kind", alt, url)
     try:
+        if not path.resolve().is_relative_to(Path(root or folder).resolve()):
+            told = f"the image {url} lies outside of {Path(root or folder).name}/; copy it beside the notebook"
+            raise CannotShow(told, "image", "it is a file outside of the project", alt, url)
+        if not path.is_file():
+            raise FileNotFoundError(path)
         data = path.read_bytes()
-    except (OSError, ValueError):
+    except CannotShow:
+        raise
+    except (OSError, ValueError, RuntimeError):
         raise CannotShow(
             f"no image {url}; it is looked for beside the notebook",
             "image",
@@ -94,7 +108,7 @@ def _kind_of(data: bytes) -> str:
 def checked(picture: Picture) -> Picture:
     """The same picture, if its bytes are what its type says."""
     if picture.kind == "svg":
-        picture.data = _clean_svg(picture.data)
+        picture.data = drawing(picture.data)
     elif not picture.data.startswith(_FIRST_BYTES[picture.kind]):
         told = f"an image that says it is {picture.kind.upper()} and is not"
         raise CannotShow(told, "image", "its data is damaged", picture.alt)
@@ -106,30 +120,3 @@ def _base64(content: str) -> bytes:
         return base64.b64decode("".join(content.split()), validate=True)
     except binascii.Error:
         raise CannotShow("an image whose data is damaged; run the cell again", "image", "its data is damaged") from None
-
-
-def _clean_svg(data: bytes) -> bytes:
-    """The drawing from its <svg> tag on. Raises CannotShow where it is not well-formed or needs other files."""
-    from xml.etree import ElementTree
-
-    try:
-        text = data.decode()
-        root = ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>\[]*(\[[^\]]*\])?>", "", text))
-    except (UnicodeDecodeError, ElementTree.ParseError) as error:
-        raise CannotShow(f"an SVG image that cannot be read: {error}", "image") from None
-    if not root.tag.endswith("svg"):
-        raise CannotShow(f"an SVG image whose first element is <{root.tag}>")
-    for element in root.iter():
-        name = str(element.tag).rpartition("}")[2]
-        if name in ("script", "foreignObject", "iframe"):
-            raise CannotShow(f"an SVG image with <{name}>, which a page cannot show")
-        for key, value in element.attrib.items():
-            outside = (
-                key.rpartition("}")[2] == "href" and name in ("image", "use") and not value.startswith(("#", "data:"))
-            )
-            if outside:
-                raise CannotShow(f"an SVG image that needs another file: {value}")
-            if key.lower().startswith("on"):
-                raise CannotShow(f"an SVG image with a script in {key}")
-    start = re.search(r"<(\w+:)?svg\b", text)
-    return text[start.start() :].encode()

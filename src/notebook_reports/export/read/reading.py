@@ -1,13 +1,14 @@
 """What the readers of one notebook share: where they are, what they have counted, what they could not show."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from notebook_reports.export.errors import CannotShow, Problem
 from notebook_reports.export.model import Block, Break, Display, Figure, Inline, Math, Mend, Paragraph, Picture, Text
+from notebook_reports.mathematics import MathError, extract_tag
 from notebook_reports.mathematics.macros import Macros
 
 _MATH = re.compile(
@@ -25,16 +26,18 @@ _ENVIRONMENTS = {"equation", "align", "aligned", "gather", "gathered", "multline
 class Reading:
     """The state of reading one notebook.
 
-    folder: where relative images are looked up. document: what equation anchors begin with. strict_alt: a picture
-    without alternative text is a problem, not a picture called "Figure". mending: what cannot be shown becomes a
-    `Mend`, not a problem. macros: those defined so far. footnotes: the texts of footnotes by key, in Markdown, for
-    cells that refer to another cell's. note_references: the keys that any cell refers to. note_numbers: those given.
+    folder: where relative images are looked up; root: the folder below which they have to lie. document: what equation
+    anchors begin with. strict_alt: a picture without alternative text is a problem, not a picture called "Figure".
+    mending: what cannot be shown becomes a `Mend`, not a problem. macros: those defined so far. footnotes: the texts of
+    footnotes by key, in Markdown, for cells that refer to another cell's. note_references: the keys that any cell
+    refers to. note_numbers: those given.
     """
 
     folder: Path | None = None
     document: str = ""
     strict_alt: bool = False
     mending: bool = False
+    root: Path | None = None
     macros: Macros = field(default_factory=Macros)
     footnotes: dict[str, str] = field(default_factory=dict)
     note_references: frozenset[str] = frozenset()
@@ -72,8 +75,6 @@ class Reading:
 
     def display(self, latex: str) -> list[Display]:
         """A formula on its own lines, its ``\\tag`` taken out; nothing where it only defines macros."""
-        from notebook_reports.mathematics import MathError, extract_tag
-
         try:
             latex = trimmed(self.macros.expand(latex))
             if not latex:
@@ -88,8 +89,6 @@ class Reading:
 
     def math(self, latex: str) -> list[Math]:
         """A formula inside a line; nothing where it only defines macros."""
-        from notebook_reports.mathematics import MathError
-
         try:
             latex = trimmed(self.macros.expand(latex))
         except MathError as error:
@@ -109,7 +108,7 @@ def trimmed(latex: str) -> str:
     return bare + " " if backslashes % 2 else bare
 
 
-def flow(nodes: list[Inline | Display]) -> list[Block]:
+def flow(nodes: Iterable[Inline | Display]) -> list[Block]:
     """Paragraphs out of inline nodes: displayed formulas stand alone, and so does a picture that is a paragraph."""
     blocks: list[Block] = []
     line: list[Inline] = []
@@ -119,6 +118,8 @@ def flow(nodes: list[Inline | Display]) -> list[Block]:
         solid = [node for node in line if not (isinstance(node, Text) and not node.text.strip())]
         if len(solid) == 1 and isinstance(solid[0], Picture):
             blocks.append(Figure(solid[0]))
+        elif solid and len(mends := [node for node in solid if isinstance(node, Mend)]) == len(solid):
+            blocks.extend(mends)
         elif line:
             blocks.append(Paragraph(list(line)))
         line.clear()
@@ -136,10 +137,10 @@ def flow(nodes: list[Inline | Display]) -> list[Block]:
 def trim(line: list[Inline]) -> None:
     """Take spaces and line breaks off both ends of a line, in place."""
     for end, strip in ((0, str.lstrip), (-1, str.rstrip)):
-        while line and isinstance(line[end], Text | Break):
-            if isinstance(line[end], Text):
-                line[end].text = strip(line[end].text)
-                if line[end].text:
+        while line and isinstance(last := line[end], Text | Break):
+            if isinstance(last, Text):
+                last.text = strip(last.text)
+                if last.text:
                     break
             del line[end]
 

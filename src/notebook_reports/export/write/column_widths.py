@@ -25,7 +25,7 @@ LINE, GAP = 12.0, 8.0
 _KINDS = ((" ,.;:'|ilI\u200b", 0.28), ("ftjrJs()[]-/", 0.38), ("mwMW%−×≈≤≥", 0.85), ("ABCDEFGHKLNOPQRSTUVXYZ", 0.66))
 _EM = {letter: width for letters, width in _KINDS for letter in letters}
 _USUAL, _FIXED, _BOLD = 0.5, 0.62, 1.1
-_WORDS = re.compile(r"[\s\u200b]+|(?<=[-/–])")
+_WORDS = re.compile(r"[\s\u200b]+|(?<=[-/])(?=\D)|(?<=–)")
 
 
 Range = tuple[float, float]

@@ -5,6 +5,7 @@ import re
 from dataclasses import dataclass, field
 from html import escape
 
+from notebook_reports.export import scripts
 from notebook_reports.export.formulas import as_mathml
 from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
@@ -25,6 +26,7 @@ from notebook_reports.export.model import (
     Item,
     Link,
     Listing,
+    Live,
     Math,
     Mend,
     Note,
@@ -42,6 +44,7 @@ from notebook_reports.export.read.css import readable_on
 from notebook_reports.export.read.notebook import beside
 from notebook_reports.export.read.pictures import MIME
 from notebook_reports.export.write.highlighting import runs
+from notebook_reports.export.write.inside_page import inside_page
 
 _STYLES = {"emph": "em", "strong": "strong", "strike": "s", "underline": "u", "sub": "sub", "super": "sup"}
 _MARKS = {"good": "✓", "note": "◆", "bad": "✗"}
@@ -50,15 +53,18 @@ _ROLES = {"stderr": "Warning output", "error": "Error"}
 
 @dataclass
 class HtmlWriter:
-    """Writes blocks as HTML. name: of the notebook. notes: the footnotes met so far."""
+    """Writes blocks as HTML. name: of the notebook. notes: the footnotes met so far. scripts: those that
+    what was written so far needs, each once."""
 
     name: str = ""
     notes: list[Note] = field(default_factory=list)
     drawings: int = 0
+    scripts: dict[str, None] = field(default_factory=dict)
 
     def report_cell(self, cell: ReportCell) -> str:
         """One cell of the notebook with its anchor."""
-        anchor = f'<div id="{cell.anchor}">' if cell.anchor else "<div>"
+        page = ' class="new-page"' if cell.new_page else ""
+        anchor = f'<div id="{cell.anchor}"{page}>' if cell.anchor else f"<div{page}>"
         return f"{anchor}\n{self.blocks(cell.blocks)}\n</div>"
 
     def blocks(self, blocks: list[Block]) -> str:
@@ -96,7 +102,24 @@ class HtmlWriter:
             case Figure(picture, caption, number):
                 told = f"<figcaption>{self.caption(number, caption)}</figcaption>" if caption else ""
                 return f'<figure><div class="sheet">{self.picture(picture)}</div>{told}</figure>'
+            case Live():
+                return self.live(block)
         raise TypeError(f"no HTML form for {type(block).__name__}")
+
+    def live(self, block: Live) -> str:
+        """Data with the package's markup before it; where no script runs, what stands for it."""
+        self.scripts[block.script] = None
+        data = f'<script type="application/json" class="data">{scripts.as_text(block.data)}</script>'
+        instead = f"<noscript>{self.blocks(block.instead)}</noscript>" if block.instead else ""
+        return f'<div class="live" data-mime="{escape(block.mime)}">{block.markup}{data}</div>{instead}'
+
+    def ending(self) -> str:
+        """The scripts of the page, at its end."""
+        return "".join(f"<script>{script}</script>\n" for script in self.scripts)
+
+    def policy(self) -> str:
+        """The page's policy; known when all of it is written."""
+        return scripts.policy(self.scripts)
 
     def heading(self, heading: Heading) -> str:
         tag = f"h{min(heading.level + 1, 6)}"
@@ -268,27 +291,3 @@ def _colours(ink: str, ground: str) -> str:
 
 def _mend_number(mend: Mend) -> str:
     return f'<a class="mend-number" id="mend-{mend.number}" href="#mend-list-{mend.number}">{mend.number}</a>'
-
-
-_PLAIN_STYLE = re.compile(r"<style[^>]*>\s*\*\s*\{[^}]*\}\s*</style>")
-
-
-def inside_page(svg: str, prefix: str, alt: str) -> str:
-    """An SVG that may stand in an HTML page: its ids its own, no style of its own for the page; "" if it may not.
-
-    matplotlib's drawings may: their one style rule, for line joins, becomes attributes of the drawing.
-    """
-    rules = _PLAIN_STYLE.findall(svg)
-    svg = _PLAIN_STYLE.sub("", svg)
-    if "<style" in svg or not svg.startswith("<svg"):
-        return ""
-    svg = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
-    used = set(re.findall(r"(?:url\(#|href=\"#)([^)\"]+)", svg))
-
-    def named(found: re.Match[str]) -> str:
-        return f' id="{prefix}-{found[1]}"' if found[1] in used else ""
-
-    svg = re.sub(r'\sid="([^"]*)"', named, svg)
-    svg = re.sub(r"(url\(#|href=\"#)", rf"\g<1>{prefix}-", svg)
-    joins = ' stroke-linejoin="round" stroke-linecap="butt"' if rules and "stroke-linejoin" in rules[0] else ""
-    return f'<svg role="img" aria-label="{alt}"{joins}{svg[4:]}'

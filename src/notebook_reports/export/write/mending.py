@@ -12,6 +12,7 @@ from notebook_reports.export.model import (
     Display,
     Figure,
     Grid,
+    Inline,
     Listing,
     Math,
     Mend,
@@ -33,6 +34,7 @@ from notebook_reports.export.write.typst_engine import (
     explain,
 )
 from notebook_reports.export.write.wide_tables import split
+from notebook_reports.mathematics import MathError
 from notebook_reports.mathematics.tolerant import readings
 
 Written = tuple[str, dict[str, bytes], dict[str, Grid]]
@@ -45,8 +47,6 @@ SMALLEST = 0.25
 
 def mend_formulas(report: Report, form: str) -> None:
     """Replace each formula that the converter to "typst" or "mathml" refuses by one that it reads, or by a `Mend`."""
-    from notebook_reports.mathematics import MathError
-
     convert = as_typst if form == "typst" else as_mathml
 
     def mended(node: object) -> list[Block] | None:
@@ -192,7 +192,7 @@ def _as_text(report: Report, number_: int, told: str) -> bool:
     return False
 
 
-def _texts(cell: ReportCell) -> Iterator[str]:
+def _texts(cell: ReportCell | list[Inline]) -> Iterator[str]:
     for node in walk(cell):
         if isinstance(node, Listing):
             yield node.text
@@ -206,17 +206,22 @@ def _texts(cell: ReportCell) -> Iterator[str]:
 
 
 def _name_absent(report: Report) -> bool:
-    """Say once a cell which characters stand there as their names; did any cell have one?"""
-    said = False
+    """Say once which characters stand in the report as their names; are there any, and was it not yet said?"""
+    if any(isinstance(node, Mend) and node.kind == "character" for node in walk(report.cells)):
+        return False
+    found: dict[str, None] = {}
+    cells: list[ReportCell] = []
     for cell in report.cells:
-        if any(isinstance(b, Mend) and b.kind == "character" for b in cell.blocks):
-            continue
-        texts = [*_texts(cell), *(n.alt for n in walk(cell) if isinstance(n, Picture))]
+        title = report.title if cell is report.cells[0] else []
+        texts = [*_texts(cell), *_texts(title), *(n.alt for n in walk(cell) if isinstance(n, Picture))]
         drawings = (n.data.decode(errors="replace") for n in walk(cell) if isinstance(n, Picture) and n.kind == "svg")
-        found = dict.fromkeys(c for text in (*texts, *drawings) for c in absent_in(text))
-        if found:
-            shown = ", ".join(name_of(c) for c in list(found)[:8])
-            more = f" and {len(found) - 8} more" if len(found) > 8 else ""
-            cell.blocks.append(Mend("character", f"no font has {shown}{more}; by name here", remark=True))
-            said = True
-    return said
+        here = dict.fromkeys(c for text in (*texts, *drawings) for c in absent_in(text) if name_of(c))
+        cells += [cell] if here else []
+        found |= here
+    if not found:
+        return False
+    shown = ", ".join(name_of(c) for c in list(found)[:8])
+    more = f" and {len(found) - 8} more" if len(found) > 8 else ""
+    where = f", here and in {len(cells) - 1} more cells" if len(cells) > 1 else ""
+    cells[0].blocks.append(Mend("character", f"no font has {shown}{more}; by name{where or ' here'}", remark=True))
+    return True

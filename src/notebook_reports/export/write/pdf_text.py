@@ -1,7 +1,7 @@
 """The text of a PDF that Typst made, run by run in reading order, with its place on the page.
 
-Only what Typst writes is read: plain objects, composite fonts with two bytes a glyph and a table to Unicode. So a page
-is checked: that every word is there, and that none leaves the paper.
+Only what Typst writes is read: plain objects, composite fonts with two bytes a glyph and a table to Unicode. It is how
+a page is checked: that every word is there, and that none leaves the paper.
 """
 
 import re
@@ -14,7 +14,7 @@ _IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class Run:
+class TextRun:
     """Characters in one font on one line. x0, x1, end, y: points from the left and the bottom of the page; x1 is where
     the last letter ends and end where the last space does; y is of the line. drawn: part of a picture."""
 
@@ -42,7 +42,7 @@ class PdfText:
         self._objects = {int(n): body for n, body in re.findall(rb"\n(\d+) 0 obj\n(.*?)\nendobj", pdf, re.DOTALL)}
         self._fonts: dict[int, _Font] = {}
         self._kinds: dict[int, bytes] = {}
-        self.pages = self._kids(int(re.search(rb"/Type/Catalog\b.*?/Pages (\d+) 0 R", pdf, re.DOTALL)[1]))
+        self.pages = self._kids(_number(rb"/Type/Catalog\b.*?/Pages (\d+) 0 R", pdf))
         boxes = [re.search(rb"/MediaBox\s*\[([^\]]*)\]", self._objects[page]) for page in self.pages]
         self.sizes = [tuple(float(v) for v in box[1].split()[2:]) for box in boxes if box]
 
@@ -53,7 +53,7 @@ class PdfText:
             return [number]
         return [page for kid in re.findall(rb"(\d+) 0 R", kids[1]) for page in self._kids(int(kid))]
 
-    def runs(self) -> Iterator[Run]:
+    def runs(self) -> Iterator[TextRun]:
         """Every run of text, page by page."""
         for place, page in enumerate(self.pages, start=1):
             body = self._objects[page]
@@ -85,13 +85,21 @@ class PdfText:
     def _font(self, number: int) -> _Font:
         if number not in self._fonts:
             body = self._objects[number]
-            table = self._stream(int(re.search(rb"/ToUnicode (\d+) 0 R", body)[1]))
-            below = self._objects[int(re.search(rb"/DescendantFonts\s*\[(\d+) 0 R", body)[1])]
+            table = self._stream(_number(rb"/ToUnicode (\d+) 0 R", body))
+            below = self._objects[_number(rb"/DescendantFonts\s*\[(\d+) 0 R", body)]
             usual = re.search(rb"/DW ([\d.]+)", below)
             self._fonts[number] = _Font(_characters(table), _widths(below), float(usual[1]) if usual else 1000.0)
         return self._fonts[number]
 
-    def _read(self, content, resources, matrix: Matrix, page: int, drawn: bool, depth: int) -> Iterator[Run]:
+    def _read(
+        self,
+        content: bytes,
+        resources: dict[str, dict[str, int]],
+        matrix: Matrix,
+        page: int,
+        drawn: bool,
+        depth: int,
+    ) -> Iterator[TextRun]:
         stack: list[Matrix] = []
         for found in _OPERATORS.finditer(content):
             match found.lastgroup:
@@ -100,7 +108,7 @@ class PdfText:
                 case "restore" if stack:
                     matrix = stack.pop()
                 case "moved":
-                    matrix = _times(tuple(float(v) for v in found["moved"].split()[:6]), matrix)
+                    matrix = _times(_matrix(found["moved"]), matrix)
                 case "text":
                     yield from self._text(found["text"], resources["Font"], matrix, page, drawn)
                 case "drawing" if depth < 12:
@@ -108,19 +116,23 @@ class PdfText:
                     body = self._objects.get(number or -1, b"")
                     if b"/Subtype/Form" in body:
                         own = re.search(rb"/Matrix\s*\[([^\]]*)\]", body)
-                        inner = _times(tuple(float(v) for v in own[1].split()), matrix) if own else matrix
+                        inner = _times(_matrix(own[1]), matrix) if own else matrix
                         inside = self._resources(body[: body.find(b"stream")])
                         yield from self._read(self._stream(number), inside, inner, page, True, depth + 1)
 
-    def _text(self, block: bytes, fonts: dict[str, int], matrix: Matrix, page: int, drawn: bool) -> Iterator[Run]:
-        font, size, place = None, 0.0, _IDENTITY
+    def _text(self, block: bytes, fonts: dict[str, int], matrix: Matrix, page: int, drawn: bool) -> Iterator[TextRun]:
+        font, size, place, said = None, 0.0, _IDENTITY, None
         for found in _IN_TEXT.finditer(block):
             match found.lastgroup:
+                case "said":
+                    said = _said(found["said"].strip())
+                case "end":
+                    said = None
                 case "font":
                     name, points = found["font"].split()
                     font, size = self._font(fonts[name[1:].decode()]), float(points)
                 case "place":
-                    place = tuple(float(v) for v in found["place"].split()[:6])
+                    place = _matrix(found["place"])
                 case "shown" | "one" if font:
                     text, advance, inked = "", 0.0, 0.0
                     for piece in _PIECES.finditer(found[found.lastgroup]):
@@ -133,24 +145,41 @@ class PdfText:
                         for i in range(0, len(data) - 1, 2):
                             glyph = data[i] << 8 | data[i + 1]
                             character = font.characters.get(glyph, "")
-                            text += character
+                            text += character if said is None else ""
                             advance += font.widths.get(glyph, font.usual)
                             inked = inked if character.isspace() else advance
                     whole = _times(place, matrix)
                     x0, y = whole[4], whole[5]
-                    ends = (x0 + size * whole[0] * reach / 1000 for reach in (inked, advance))
-                    yield Run(page, text, x0, *ends, y, size * abs(whole[3]), drawn)
+                    text, said = (text, None) if said is None else (said, "")
+                    end, after = (x0 + size * whole[0] * reach / 1000 for reach in (inked, advance))
+                    yield TextRun(page, text, x0, end, after, y, size * abs(whole[3]), drawn)
+
+
+def _number(pattern: bytes, text: bytes) -> int:
+    found = re.search(pattern, text, re.DOTALL)
+    if found is None:
+        raise ValueError(f"no {pattern.decode()} in the PDF")
+    return int(found[1])
+
+
+def _matrix(text: bytes) -> Matrix:
+    a, b, c, d, e, f = (float(v) for v in text.split()[:6])
+    return a, b, c, d, e, f
 
 
 _NUMBERS = rb"(?:-?[\d.]+\s+){6}"
 _STRING = rb"\((?:\\.|[^\\()]|\((?:\\.|[^\\()]|\((?:\\.|[^\\()])*\))*\))*\)"
 _OPERATORS = re.compile(
-    rb"(?P<text>\bBT\s.*?\sET\b)|(?P<moved>" + _NUMBERS + rb"cm\b)|(?P<drawing>(?<=/)[^\s/]+(?=\s+Do\b))"
+    rb"(?P<text>\bBT(?=[\s/]).*?\sET\b)|(?P<moved>" + _NUMBERS + rb"cm\b)|(?P<drawing>(?<=/)[^\s/]+(?=\s+Do\b))"
     rb"|(?P<save>(?<![^\s])q(?=\s))|(?P<restore>(?<![^\s])Q(?=\s|$))",
     re.DOTALL,
 )
 _IN_TEXT = re.compile(
-    rb"(?P<font>/\S+ [\d.]+(?= Tf))|(?P<place>" + _NUMBERS + rb"Tm)"
+    rb"(?P<said>(?<=/ActualText)\s*(?:"
+    + _STRING
+    + rb"|<[0-9A-Fa-f]*>))|(?P<end>\bEMC\b)|(?P<font>/\S+ [\d.]+(?= Tf))|(?P<place>"
+    + _NUMBERS
+    + rb"Tm)"
     rb"|(?P<shown>\[(?:" + _STRING + rb"|[^\]()])*\](?=\s*TJ))|(?P<one>(?:" + _STRING + rb"|<[0-9A-Fa-f]*>)(?=\s*Tj))",
     re.DOTALL,
 )
@@ -167,6 +196,12 @@ def _plain(raw: bytes) -> bytes:
         return b"" if code.endswith(b"\n") else _NAMED.get(code, code)
 
     return _ESCAPE.sub(named, raw[1:-1])
+
+
+def _said(raw: bytes) -> str:
+    """What stands for the glyphs of a piece of text."""
+    data = bytes.fromhex(raw.strip(b"<>").decode()) if raw.startswith(b"<") else _plain(raw)
+    return data[2:].decode("utf-16-be", errors="replace") if data.startswith(b"\xfe\xff") else data.decode("latin-1")
 
 
 def _times(a: Matrix, b: Matrix) -> Matrix:
@@ -213,7 +248,16 @@ def _widths(font: bytes) -> dict[int, float]:
     return found
 
 
-def text_of(runs: list[Run]) -> str:
+def in_the_text(pages: PdfText) -> list[TextRun]:
+    """The runs without heads and page numbers, and without words in pictures."""
+    return [
+        run
+        for run in pages.runs()
+        if not run.drawn and run.y < pages.sizes[run.page - 1][1] - MARGIN_TOP and run.y > MARGIN_BOTTOM - _SLACK
+    ]
+
+
+def text_of(runs: list[TextRun]) -> str:
     """The runs as text: on one line without a gap they are one word, and a word divided at a line's end is whole."""
     text, last = "", None
     for run in runs:
@@ -231,9 +275,11 @@ MARGIN_X, MARGIN_TOP, MARGIN_BOTTOM = 2.5 * 72 / 2.54, 2.7 * 72 / 2.54, 2.5 * 72
 """Points between the edge of a page and its text: the margins of ``report.typ``."""
 _SLACK = 5.0
 """Points that a letter may stand out: punctuation and slanted letters do."""
+_HANGING = frozenset("、。，．：；！？）］｝」』】")
+"""Marks of which half is empty."""
 
 
-def outside(pages: PdfText) -> list[Run]:
+def outside(pages: PdfText) -> list[TextRun]:
     """The runs that leave the text block of their page; heads and page numbers, and words in pictures, do not count."""
     found = []
     for run in pages.runs():
@@ -241,7 +287,8 @@ def outside(pages: PdfText) -> list[Run]:
         if run.drawn or not run.text.strip():
             continue
         head = run.y > height - MARGIN_TOP or (run.y < MARGIN_BOTTOM - _SLACK and re.fullmatch(r"[\d /]+", run.text))
-        beside = run.x0 < MARGIN_X - _SLACK or run.x1 > width - MARGIN_X + _SLACK
+        slack = 0.7 * run.size if run.text.rstrip()[-1:] in _HANGING else _SLACK
+        beside = run.x0 < MARGIN_X - _SLACK or run.x1 > width - MARGIN_X + slack
         below = run.y < MARGIN_BOTTOM - _SLACK
         if beside or (below and not head):
             found.append(run)

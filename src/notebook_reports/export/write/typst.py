@@ -27,6 +27,7 @@ from notebook_reports.export.model import (
     Item,
     Link,
     Listing,
+    Live,
     Math,
     Mend,
     Note,
@@ -46,7 +47,7 @@ from notebook_reports.export.read.notebook import beside
 from notebook_reports.export.read.picture_sizes import pixel_width
 from notebook_reports.export.write.breaking import pieces as line_ends
 from notebook_reports.export.write.column_widths import TEXT_HEIGHT, TEXT_WIDTH, deciding, height, unbroken, words
-from notebook_reports.export.write.glyphs import without_absent
+from notebook_reports.export.write.glyphs import latex_without_absent, without_absent
 from notebook_reports.export.write.highlighting import lines
 from notebook_reports.export.write.svg_fonts import with_known_fonts
 from notebook_reports.export.write.typst_text import (
@@ -85,6 +86,7 @@ class TypstWriter:
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
     leads to its own PDF beside this one. turned: the tables that get a landscape page, by name, count and content
     ("a/b 3 1f0c"). grids: the tables written, by that name.
+    naming: characters known to be in no font are written by their names.
     probing: write what is only measured. The engine looks for a measured element in the page and, having found it, lays
     all out anew; so what is measured equals nothing on the page, but is as wide.
     """
@@ -93,6 +95,7 @@ class TypstWriter:
     prefix: str = ""
     chapters: dict[str, set[str]] | None = None
     turned: frozenset[str] = frozenset()
+    naming: bool = False
     files: dict[str, bytes] = field(default_factory=dict)
     grids: dict[str, Grid] = field(default_factory=dict)
     cell: int = 0
@@ -110,7 +113,7 @@ class TypstWriter:
             first = self.node(Anchor(cell.anchor)) + first
         elif cell.anchor and not isinstance(cell.blocks[0], Heading):
             first = f"#[{first}#{self.label(cell.anchor)}]"
-        return "\n\n".join([first, *rest])
+        return "\n\n".join([*(["#pagebreak(weak: true)"] if cell.new_page else []), first, *rest])
 
     def blocks(self, blocks: list[Block], tight: bool = False) -> str:
         """The source of blocks, each on lines of its own."""
@@ -144,6 +147,8 @@ class TypstWriter:
             case Figure(picture, caption, number):
                 told = f"[{self.inline(caption)}]" if caption else "none"
                 return f"#drawing({self.picture(picture)}, {told}, {literal(number)})"
+            case Live():
+                return self.blocks(block.instead)
         raise TypeError(f"no Typst form for {type(block).__name__}")
 
     def listing(self, block: Listing, keep: bool = False) -> str:
@@ -216,7 +221,7 @@ class TypstWriter:
 
     def math(self, node: Math) -> str:
         """A formula inside a line. A long one comes with its pieces, so that it is known whether lines can hold it."""
-        latex = node.latex
+        latex = latex_without_absent(node.latex) if self.naming else node.latex
         if self.probing:
             return f"#probe(${as_typst(latex, False)}$);"
         formula = f"{literal(as_text(latex))}, ${as_typst(latex, False)}$"
@@ -229,7 +234,7 @@ class TypstWriter:
 
     def shown(self, text: str) -> str:
         """The text with names in place of the characters that no font has, as far as they are known."""
-        return without_absent(text)
+        return without_absent(text) if self.naming else text
 
     def mend(self, mend: Mend) -> str:
         """What stands in place of a block: a box, or for a remark a line."""
@@ -258,13 +263,19 @@ class TypstWriter:
 
     def whole(self, address: str) -> str:
         """An address; a short one is not broken into lines, so that it can be found and copied."""
-        return f"#box({literal(self.shown(address))});" if len(address) <= LONGEST_ADDRESS else self.plain(address)
+        most = LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_ADDRESS
+        return f"#box({literal(self.shown(address))});" if len(address) <= most else self.plain(address)
 
     def sentence(self, mend: Mend) -> str:
         told, address = sentence(mend), f"({mend.address})"
         if not mend.address or not told.endswith(address):
             return self.plain(told)
         return f"{self.plain(told.removesuffix(address) + '(')}{self.whole(mend.address)}{self.plain(')')}"
+
+    def title(self, report: Report) -> str:
+        """The title, a place to link to."""
+        place = self.node(Anchor(report.title_anchor)) if report.title_anchor else ""
+        return self.inline(report.title) + place
 
     def mends(self, report: Report) -> str:
         """The list of mends at the end, or nothing."""
@@ -294,8 +305,9 @@ class TypstWriter:
         return f"label({literal(self.prefix + anchor)})"
 
     def display(self, block: Display) -> str:
-        parts = _lines(block.latex)
-        whole = f"({literal(as_text(block.latex))}, ${as_typst(block.latex, True)}$)"
+        latex = latex_without_absent(block.latex) if self.naming else block.latex
+        parts = _lines(latex)
+        whole = f"({literal(as_text(latex))}, ${as_typst(latex, True)}$)"
         broken = ""
         if len(parts) > 1:
             broken = "".join(f"({literal(as_text(p))}, ${as_typst(p, True)}$), " for p in parts)
@@ -392,7 +404,7 @@ class TypstWriter:
 
     def drawing(self, svg: bytes) -> bytes:
         """The drawing with fonts we have and without characters that these have not."""
-        return with_known_fonts(without_absent(svg.decode(), "□").encode())
+        return with_known_fonts(without_absent(svg.decode(), "□").encode() if self.naming else svg)
 
     def where(self, what: str, id: str) -> str:
         return literal(f"{self.cell}|{what}|{id}")

@@ -1,6 +1,5 @@
 """Typst source to PDF bytes, in this process: our fonts only, no network, the same bytes each time."""
 
-import atexit
 import functools
 import importlib.util
 import json
@@ -13,6 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from notebook_reports.errors import PressError
+from notebook_reports.export.write.more_fonts import more_fonts
+from notebook_reports.project import runtime
 from notebook_reports.run.surroundings import EPOCH
 
 STANDARDS = ("a-2a", "ua-1")
@@ -37,7 +39,7 @@ class TooWide:
     share: float
 
 
-class TypstFailed(RuntimeError):
+class TypstFailed(PressError, RuntimeError):
     """The source does not compile; `diagnostics` say why, `wide` what is too wide."""
 
     def __init__(self, diagnostics: list[Diagnostic], wide: list[TooWide] | None = None):
@@ -50,19 +52,17 @@ class TypstFailed(RuntimeError):
 
 @functools.cache
 def fonts() -> Any:
-    """The wheel's fonts and matplotlib's (which is not imported), and none of the system's.
+    """The wheel's fonts and matplotlib's (which is not imported), those of `more_fonts`, and none of the system's.
 
     matplotlib's "last resort" font has a box for every character there is: with it no missing glyph would be noticed,
     so the others are linked into a folder without it.
     """
     import typst
 
-    folder = Path(tempfile.mkdtemp(prefix="loopbook-fonts-"))
-    owner = os.getpid()  # a forked child must not remove what its parent still reads
-    atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
+    folder = runtime.make("fonts-")
     spec = importlib.util.find_spec("matplotlib")
     source = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" if spec and spec.origin else None
-    for file in sorted(source.glob("*.ttf")) if source else ():
+    for file in [*sorted(source.glob("*.ttf") if source else ()), *more_fonts()]:
         if "LastResort" in file.name:
             continue
         try:
@@ -76,7 +76,7 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
     """Compile main.typ beside its files to PDF/A-2a and PDF/UA-1. Raises TypstFailed, with all that is too wide."""
     import typst
 
-    with tempfile.TemporaryDirectory(prefix="loopbook-pdf-") as folder:
+    with tempfile.TemporaryDirectory(prefix="pdf-", dir=runtime.folder()) as folder:
         root = Path(folder)
         for name, content in files.items():
             (root / name).write_bytes(content)
@@ -104,7 +104,7 @@ def picture_pdf(svg: bytes) -> bytes:
     import typst
 
     page = b'#set page(width: auto, height: auto, margin: 0pt)\n#image("picture.svg")'
-    with tempfile.TemporaryDirectory(prefix="loopbook-pdf-") as folder:
+    with tempfile.TemporaryDirectory(prefix="pdf-", dir=runtime.folder()) as folder:
         (Path(folder) / "picture.svg").write_bytes(svg)
         (Path(folder) / "main.typ").write_bytes(page)
         try:

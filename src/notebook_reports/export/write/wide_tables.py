@@ -2,7 +2,7 @@
 
 from copy import deepcopy
 
-from notebook_reports.export.model import Block, Cell, Grid, Mend, plain
+from notebook_reports.export.model import Block, Cell, Grid, Listing, Mend, plain
 from notebook_reports.export.write.column_widths import extent
 
 COMFORTABLE = 0.75
@@ -71,8 +71,6 @@ def _part(grid: Grid, columns: list[int]) -> Grid:
 
 def _rows(grid: Grid) -> list[Block]:
     """Each row as a line of text."""
-    from notebook_reports.export.model import Listing
-
     rows: list[list[str]] = [[] for _ in range(grid.rows)]
     for cell in grid.cells:
         rows[cell.y].append(plain(cell.children, "text"))

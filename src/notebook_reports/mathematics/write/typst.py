@@ -103,7 +103,7 @@ def _from(start: int, items: list[n.Node], found: list, before: str | None, styl
             space = item.em + (space or 0.0)
             continue
         after_space = space is not None
-        if after_space:
+        if space is not None:
             parts.append(_space(space + (gap(before, pair[0], "script" in style) if before and pair else 0.0)))
             space = None
         if isinstance(item, n.StyleSwitch):

@@ -11,7 +11,7 @@ from derivations.algebra.delay_polynomials import Z
 from derivations.pole_placement.diophantine import integrators, place
 from loopbook.documents.double_tank.long_fractions import as_printed, at, read_back, symbolic_number
 from loopbook.documents.open import printed as load
-from notebook_reports.ledger.verdicts import MISPRINT, ROUNDED, rounds_to, value_verdict
+from notebook_reports.ledger.verdicts import MISPRINT, ROUNDED, Computed, rounds_to, value_verdict
 
 DOCUMENT = load("double-tank")
 PRINTED = {i: v for i, v in DOCUMENT.values.items() if i.startswith("d_iterativ-")}
@@ -41,7 +41,7 @@ def test_the_print_has_48_integers_and_each_is_computed():
 @pytest.mark.parametrize("id", PRINTED)
 def test_digit_by_digit(id):
     expected = MISPRINT if id == LOST else ROUNDED
-    assert value_verdict(PRINTED[id], None, COMPUTED[id]) == expected
+    assert value_verdict(PRINTED[id], Computed(from_inputs=COMPUTED[id])) == expected
     assert str(COMPUTED[id]) == (PRINTED[id].corrected or PRINTED[id].printed)
 
 

@@ -37,6 +37,7 @@ def test_an_altered_parameter_is_noticed(digit):
     assert agreeing(displayed(Loop(TANK, PidParallel(*values, tuned().N))), printed("tuned")) <= 4
 
 
+@pytest.mark.long
 def test_no_structure_with_the_four_good_cells_of_ziegler_and_nichols_gives_the_other_two():
     """What the ledger says of the two cells that differ, and by how much."""
     values, given = load("double-tank").values, printed("zn")

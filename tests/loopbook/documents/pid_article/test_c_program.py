@@ -12,21 +12,22 @@ import sympy as sp
 from derivations.programs import positional_pid as law
 from loopbook.documents.open import printed as load
 from loopbook.documents.pid_article import c_program
-from loopbook.documents.pid_article.c_program import Program
+from loopbook.documents.pid_article.c_program import CProgram
 
 COMPILER = next((c for c in (os.environ.get("CC", ""), "cc", "gcc", "clang") if c and shutil.which(c)), None)
 
 
 @pytest.fixture(scope="module")
-def program() -> Program:
+def program() -> CProgram:
     values = load("pid-article").values
     names = {"u_min": "min_u", "u_max": "max_u", "t_end": "t_sim", "level": "u"}
     fields = ("k", "T1", "T2", "Kp", "Ti", "Td", "u_min", "u_max", "h", "t_end", "level")
-    return Program(**{f: values[f"c-{names.get(f, f)}"].fraction for f in fields})
+    return CProgram(**{f: values[f"c-{names.get(f, f)}"].fraction for f in fields})
 
 
 @pytest.mark.parametrize("real", ["float", "double"])
 @pytest.mark.skipif(COMPILER is None, reason="no C compiler on this machine (looked for $CC, cc, gcc, clang)")
+@pytest.mark.builds
 def test_compiled_program_writes_what_python_computes_line_by_line(program, tmp_path, real):
     source = tmp_path / "loop.c"
     source.write_text(c_program.c_source(program, real))
@@ -52,7 +53,7 @@ def test_time_accumulates_so_there_are_2000_rows_in_either_precision(program):
 
 
 def test_exact_arithmetic_follows_the_derived_law(program):
-    rows = c_program.closed_loop(Program(**{**vars(program), "t_end": Fraction(8, 100), "u_max": 1000}), Fraction)
+    rows = c_program.closed_loop(CProgram(**{**vars(program), "t_end": Fraction(8, 100), "u_max": 1000}), Fraction)
     numbers = {law.h: program.h, law.Kp: program.Kp, law.Ti: program.Ti, law.Td: program.Td}
     errors = [1 - row[1] for row in rows]
     for i in range(1, len(rows) - 1):
@@ -65,14 +66,14 @@ def test_output_stays_within_its_limits_and_starts_without_a_derivative(program)
     u = np.array([row[3] for row in c_program.closed_loop(program, float)])
     assert u.max() == 2.0 and u.min() > -2.0
     assert u[0] == 0.0
-    wide = Program(**{**vars(program), "u_max": 1000, "u_min": -1000})
+    wide = CProgram(**{**vars(program), "u_max": 1000, "u_min": -1000})
     assert c_program.closed_loop(wide, float)[1][3] == pytest.approx(2.9635 * (1 + 0.01 / 4.8004), rel=1e-12)
     kicked = c_program.closed_loop(wide, float, first_difference=True)[1][3]
     assert kicked == pytest.approx(2.9635 * (1 + 0.01 / 4.8004 + 0.7152 / 0.01), rel=1e-12)
 
 
 def test_without_anti_windup_the_sum_grows_while_the_limit_acts(program):
-    low = Program(**{**vars(program), "u_max": Fraction(2, 5)})
+    low = CProgram(**{**vars(program), "u_max": Fraction(2, 5)})
     frozen = c_program.closed_loop(low, float)
     wound = c_program.closed_loop(low, float, anti_windup=False)
     assert max(row[1] for row in wound) > max(row[1] for row in frozen)
@@ -93,7 +94,7 @@ def test_bumpless_start_holds_the_control_signal(program):
 )
 def test_impossible_numbers_are_refused(program, change, words):
     with pytest.raises(ValueError, match=words):
-        Program(**{**vars(program), **change})
+        CProgram(**{**vars(program), **change})
 
 
 def test_type_name_is_checked(program):

@@ -31,10 +31,10 @@ def test_on_a_dead_time_loop_more_gain_slows_settling_and_more_derivative_destab
 
 def test_cells_are_judged_by_their_definitions():
     before, after = Behaviour(2.0, 20.0, 10.0), Behaviour(1.8, 10.0, 9.5)
-    judged = {cell: test(before, after, 1.1) for cell, (_, test) in manual.CELLS.items()}
+    judged = {cell: manual.holds(cell, before, after, 1.1) for cell in manual.CELLS}
     false = {("K", "stability"), ("K", "overshoot")}
     assert {cell for cell, holds in judged.items() if not holds} == false
-    assert not manual.CELLS["Td", "settling"][1](before, Behaviour(2, 20, 8.0), 1.1)
+    assert not manual.holds(("Td", "settling"), before, Behaviour(2, 20, 8.0), 1.1)
 
 
 def test_behaviour_is_that_of_the_exact_metrics():
@@ -47,13 +47,14 @@ def test_behaviour_is_that_of_the_exact_metrics():
 
 def test_an_unstable_change_is_worse_and_not_little():
     gone = Behaviour(*[float("inf")] * 3)
-    assert manual.CELLS["K", "stability"][1](Behaviour(2, 20, 10), gone, 2)
-    assert not manual.CELLS["K", "settling"][1](Behaviour(2, 20, 10), gone, 2)
+    assert manual.holds(("K", "stability"), Behaviour(2, 20, 10), gone, 2)
+    assert not manual.holds(("K", "settling"), Behaviour(2, 20, 10), gone, 2)
     assert manual.behaviour(Loop(THIRD, 2.0)) == gone
     with pytest.raises(ValueError, match="this one is unstable"):
         manual.cells(Loop(THIRD, PidStandard(2.0)), 1.1)
 
 
+@pytest.mark.long
 def test_survey_counts_cells_rows_and_kinds():
     found = manual.survey(2.0)
     assert found.count(("Ti", "overshoot")) == len(found.examples) == 19

@@ -1,10 +1,17 @@
-"""Settings over the optimum against the relative dead time: one point a process."""
+"""Settings over the optimum against the relative dead time, one point a process; optimal loops beside the circle."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from loopbook.documents.pid_report.batch.study import Ratios
+from loopbook.loop.continuous import Loop
 from loopbook.plots.curves import COLOURS
+from loopbook.plots.nyquist import nyquist_figure
+from loopbook.process.frequency_response import frequency_at
+from loopbook.process.transfer_function import Process
+from loopbook.tuning.migo import circle
 
 MARKERS = ("o", "s", "^", "v", "D", "P", "X", "*", "<")
 DECADES = 8.0  # from this spread on the axis is logarithmic
@@ -33,6 +40,13 @@ def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: fl
     axes[0, 0].legend(title="family", fontsize="x-small", title_fontsize="x-small", ncols=3, loc="best")
     axes[-1, 0].set_xlabel(r"relative dead time $\tau$ [1]")
     return fig
+
+
+def joint_circle_figure(process: Process, regulators: Mapping[str, Any], M: float, title: str) -> Any:
+    """The Nyquist curves of a process under several regulators, with the joint circle of M."""
+    w = frequency_at(process, -2.5) * np.geomspace(1e-2, 1e2, 4000)
+    curves = {name: Loop(process, regulator).transfer(1j * w) for name, regulator in regulators.items()}
+    return nyquist_figure(curves, circle(M), f"joint circle, $M = {M:g}$", title)
 
 
 def gain_figure(tau: Any, gain: Any, title: str) -> Any:

@@ -55,7 +55,7 @@ def lags(*times: float) -> tuple[float, ...]:
     >>> lags(1, 2)
     (2.0, 3.0, 1.0)
     """
-    den = np.ones(1)
+    den: np.ndarray = np.ones(1)
     for time in times:
         den = np.polymul(den, [time, 1.0])
     return tuple(float(c) for c in den)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from loopbook.documents.pid_report.batch.study import Study, share_within
+from loopbook.documents.pid_report.batch.study import MemberStudy, share_within
 from loopbook.experiments.data import StepData
 from loopbook.loop.joint_robustness import joint_M
 from loopbook.tuning import migo
@@ -24,12 +24,12 @@ def spread(values: np.ndarray) -> str:
     return f"median {middle:.3g}, from {low:.3g} to {high:.3g}, {near} % within 15 %"
 
 
-def joint(studies: Sequence[Study], rule: str) -> np.ndarray:
+def joint(studies: Sequence[MemberStudy], rule: str) -> np.ndarray:
     """The joint M of every loop with the settings of one rule or of an optimum; inf where it is unstable."""
     return np.array([joint_M(s.member.process, s.settings[rule].pid) for s in studies if rule in s.settings])
 
 
-def joint_with_filter(studies: Sequence[Study], divisor: float = 10.0) -> dict[str, np.ndarray]:
+def joint_with_filter(studies: Sequence[MemberStudy], divisor: float = 10.0) -> dict[str, np.ndarray]:
     """The PID step rule on the stable processes: joint M and ki without filter, with it, and with adjusted data.
 
     The filter's time constant is Tf = Td/divisor of the unadjusted settings. Keys: "M", "M filter", "M adjusted", "ki"
@@ -48,19 +48,19 @@ def joint_with_filter(studies: Sequence[Study], divisor: float = 10.0) -> dict[s
     return {name: np.array(values) for name, values in found.items()}
 
 
-def joint_with_optimal_Td(studies: Sequence[Study]) -> np.ndarray:
+def joint_with_optimal_Td(studies: Sequence[MemberStudy]) -> np.ndarray:
     """The joint M with K and Ti of the PID step rule and Td of PID MIGO."""
     pairs = [(s.member.process, s.settings["PID step"].pid, s.settings["PID MIGO"].Td) for s in studies]
     return np.array([joint_M(process, replace(pid, Td=Td, N=None, Tf=0.0)) for process, pid, Td in pairs])
 
 
-def ziegler_nichols_joint(studies: Sequence[Study]) -> np.ndarray:
+def ziegler_nichols_joint(studies: Sequence[MemberStudy]) -> np.ndarray:
     """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
-    stable = [s for s in studies if isinstance(s.step, StepData)]
-    return np.array([joint_M(s.member.process, rules["zn-step-pid"](s.step).pid) for s in stable])
+    stable = [(s.member.process, s.step) for s in studies if isinstance(s.step, StepData)]
+    return np.array([joint_M(process, rules["zn-step-pid"](step).pid) for process, step in stable])
 
 
-def efficiency(studies: Sequence[Study], reached: np.ndarray) -> np.ndarray:
+def efficiency(studies: Sequence[MemberStudy], reached: np.ndarray) -> np.ndarray:
     """ki of the PI step rule over the largest ki that a PI regulator can have at the rule's own joint M, `reached`."""
     best = [migo.pi(s.member.process, float(M)).ki for s, M in zip(studies, reached, strict=True)]
     return np.array([s.settings["PI step"].ki for s in studies]) / np.array(best)

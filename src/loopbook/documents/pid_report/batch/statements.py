@@ -4,28 +4,31 @@ The report uses words; here they have numbers. *Well* is within 15 % of the opti
 all* is nine of ten processes, *most* is more than half. Lag-dominated is tau < 0.3, balanced 0.4 < tau < 0.6.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from typing import SupportsFloat
 
 import numpy as np
 
 from loopbook.documents.pid_report.batch import robustness as robust
-from loopbook.documents.pid_report.batch.study import RULES, Ratios, Study, ratios, share_within
+from loopbook.documents.pid_report.batch.study import RULES, MemberStudy, Ratios, ratios, share_within
+from notebook_reports.ledger.printed_data import Claim
+from notebook_reports.ledger.verdicts import Truth
 
 WELL, NEAR, NEARLY_ALL, FRAGILE = 0.15, 0.25, 0.9, 2.0
-Statements = dict[str, tuple[Mapping[str, bool] | bool, str]]
+Statements = dict[str, tuple[Mapping[str, Truth] | Truth, str]]
 
 
-def percent(share: float) -> str:
-    return f"{100 * share:.0f} %"
+def percent(share: SupportsFloat) -> str:
+    return f"{100 * float(share):.0f} %"
 
 
 class Batch:
     """The studied batch as arrays over its processes: tau, kappa, what derivative action gains, and by rule the
     settings over the optimum (`over`) and the joint M (`joint`)."""
 
-    def __init__(self, studies: Sequence[Study]):
-        self.studies = tuple(studies)
+    def __init__(self, studies: Sequence[MemberStudy], said: Callable[[str], Claim]):
+        self.studies, self.said = tuple(studies), said
         self.tau = np.array([s.tau for s in studies])
         self.kappa = np.array([s.kappa for s in studies])
         self.integrating = np.array([s.member.integrates for s in studies])
@@ -50,6 +53,17 @@ class Batch:
         """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
         return robust.ziegler_nichols_joint(self.studies)
 
+    def side(self, id: str, values: np.ndarray, limit: str) -> np.ndarray:
+        """The processes that a statement speaks of: those on its side of its limit."""
+        claim = self.said(id)
+        distance = values - float(claim.number(limit))
+        return distance > 0 if claim.agrees("side", 1) else distance < 0
+
+    def range(self, id: str) -> np.ndarray:
+        """The processes whose tau lies between the ends that a statement names."""
+        low, high = (float(self.said(id).number(end)) for end in ("low", "high"))
+        return (self.tau > low) & (self.tau < high)
+
     def gain(self, name: str) -> np.ndarray:
         """ki or K of PID MIGO over that of PI MIGO."""
         return np.array(
@@ -71,11 +85,11 @@ def derivative(b: Batch) -> Statements:
     return {
         "derivative-helps-lags": (parts, f"ki grows by {ranges}, {slow.min():.2f} to {slow.max():.3g} for tau < 0.3."),
         "derivative-raises-gains": (
-            min(K.min(), ki.min()) > 1,
+            all(b.said("derivative-raises-gains").agrees("gains", x - 1) for x in (*K, *ki)),
             f"on all {len(ki)} processes: K at least {K.min():.3f} times, ki at least {ki.min():.3f} times",
         ),
         "pid-noise": (
-            fast.min() > 1,
+            all(b.said("pid-noise").agrees("noise", x - 1) for x in fast),
             f"gain for fast noise K(1 + N), filter N = 10, over K of PI: {fast.min():.1f} to {fast.max():.3g} times",
         ),
     }
@@ -84,17 +98,21 @@ def derivative(b: Batch) -> Statements:
 def derivative_filter(b: Batch) -> Statements:
     """Section 5.3.2: the PID step rule with a filter of Td/10, with and without adjusted data."""
     found = robust.joint_with_filter(b.studies)
-    worse, mended = np.mean(found["M filter"] > found["M"]), np.mean(found["M adjusted"] <= found["M filter"])
+    mended = np.mean(found["M adjusted"] <= found["M filter"])
+    less = 1 / found["M filter"] - 1 / found["M"]
+    worse = np.mean([b.said("filter-costs-robustness").agrees("robustness", x) for x in less])
     parts = {
-        "the filter lowers the robustness of all": worse == 1,
-        "it lowers that of most": worse > 0.5,
+        "that of all": worse == 1,
+        "that of most": worse > 0.5,
         "the adjusted data raise it again for most": mended > 0.5,
     }
-    evidence = f"joint M rises with the filter on {percent(worse)} of the processes; adjusted data lower it on "
+    evidence = (
+        f"with the filter the robustness 1/M changes so on {percent(worse)} of the processes; adjusted data mend it on "
+    )
     return {
         "filter-costs-robustness": (parts, f"{evidence}{percent(mended)}."),
         "filter-costs-ki": (
-            found["ki"].max() < 1,
+            all(b.said("filter-costs-ki").agrees("damping", x - 1) for x in found["ki"]),
             f"adjusted ki over unadjusted: {found['ki'].min():.3f} to {found['ki'].max():.3f}",
         ),
     }
@@ -118,7 +136,7 @@ def _follows(values: np.ndarray) -> tuple[dict[str, bool], str]:
     return parts, f"{len(values)} processes: {robust.spread(values)}."
 
 
-def _on_one_side(outside: np.ndarray, values: np.ndarray) -> tuple[dict[str, bool], str]:
+def _on_one_side(outside: Sequence[bool], values: np.ndarray) -> tuple[dict[str, bool], str]:
     share = float(np.mean(outside))
     parts = {"most": share > 0.5, "nearly all": share >= NEARLY_ALL}
     return parts, f"{percent(share)} of {len(values)} processes: {robust.spread(values)}."
@@ -127,38 +145,58 @@ def _on_one_side(outside: np.ndarray, values: np.ndarray) -> tuple[dict[str, boo
 def pid_step(b: Batch) -> Statements:
     """Section 5.3.4: where K, Ti and Td of the PID step rule are good, too low or too high."""
     r = b.over["PID step"]
-    Td = r.Td[b.lag]
-    either = f"{percent(np.mean(Td < 1))} smaller, {percent(np.mean(Td > 1))} larger; {robust.spread(Td)}"
-    return {
-        "pid-K-good": _follows(r.K[b.tau > 0.3]),
-        "pid-K-low": _on_one_side(r.K[b.lag] < 1, r.K[b.lag]),
-        "pid-Ti-good": _follows(r.Ti[b.tau > 0.2]),
-        "pid-Ti-high": _on_one_side(r.Ti[b.tau < 0.2] > 1, r.Ti[b.tau < 0.2]),
-        "pid-Td-good": _follows(r.Td[b.tau > 0.5]),
-        "pid-Td-half": (r.Td[b.middle].min() < 0.5, robust.spread(r.Td[b.middle])),
-        "pid-Td-either": (Td.min() < 1 < Td.max(), either),
+    K, Ti, Td = (b.said(f"pid-{name}-good") for name in ("K", "Ti", "Td"))
+    good = {name: b.side(claim.id, b.tau, "tau") for name, claim in (("K", K), ("Ti", Ti), ("Td", Td))}
+    rest = {name: _elsewhere(b, id, limit) for name, id, limit in (("K", "pid-K-low", K), ("Ti", "pid-Ti-high", Ti))}
+    off = {
+        "K": [b.said("pid-K-low").agrees("K", x - 1) for x in r.K[rest["K"]]],
+        "Ti": [b.said("pid-Ti-high").agrees("Ti", x - 1) for x in r.Ti[rest["Ti"]]],
     }
+    Td_there, half = r.Td[b.side("pid-Td-either", b.tau, "tau")], r.Td[b.range("pid-Td-half")]
+    either = f"{percent(np.mean(Td_there < 1))} smaller, {percent(np.mean(Td_there > 1))} larger; "
+    extreme = half.min() if b.said("pid-Td-half").agrees("Td", -1) else 1 / half.max()
+    return {
+        "pid-K-good": _follows(r.K[good["K"]]),
+        "pid-K-low": _on_one_side(off["K"], r.K[rest["K"]]),
+        "pid-Ti-good": _follows(r.Ti[good["Ti"]]),
+        "pid-Ti-high": _on_one_side(off["Ti"], r.Ti[rest["Ti"]]),
+        "pid-Td-good": _follows(r.Td[good["Td"]]),
+        "pid-Td-half": (extreme < 0.5, f"{len(half)} processes: {robust.spread(half)}"),
+        "pid-Td-either": (Td_there.min() < 1 < Td_there.max(), either + robust.spread(Td_there)),
+    }
+
+
+def _elsewhere(b: Batch, id: str, good: Claim) -> np.ndarray:
+    """The processes that "for smaller tau" means after a statement that named a limit."""
+    distance = b.tau - float(good.number("tau"))
+    return distance > 0 if b.said(id).agrees("side", 1) else distance < 0
 
 
 def pid_step_robustness(b: Batch) -> Statements:
     """Section 5.3.4: the short derivative time, and whether the rule is conservative."""
     r, ki = b.over["PID step"], b.gain("ki")
-    inside = [s for s, yes in zip(b.studies, b.middle, strict=True) if yes]
-    rule, best = b.joint["PID step"][b.middle], robust.joint_with_optimal_Td(inside)
-    worse = np.mean(rule > best)
-    lower, longer = (r.K < 1) & (r.ki < 1), r.Ti > 1
-    most = {name: [np.mean(x[k]) for x in (lower, longer)] for name, k in (("lag", b.lag), ("middle", b.middle))}
-    parts = {r"$\tau < 0.3$": min(most["lag"]) > 0.8, r"$0.3 < \tau < 0.5$": min(most["middle"]) > 0.8}
+    middle, said = b.range("pid-Td-robustness"), b.said("pid-conservative-below")
+    inside = [s for s, yes in zip(b.studies, middle, strict=True) if yes]
+    rule, best = b.joint["PID step"][middle], robust.joint_with_optimal_Td(inside)
+    worse = np.mean(
+        [b.said("pid-Td-robustness").agrees("robustness", 1 / m - 1 / n) for m, n in zip(rule, best, strict=True)]
+    )
+    there = b.side(said.id, b.tau, "tau")
+    lower = np.array([said.agrees("K", x - 1) and said.agrees("K", y - 1) for x, y in zip(r.K, r.ki, strict=True)])
+    longer = np.array([said.agrees("Ti", x - 1) for x in r.Ti])
+    kinds = {r"$\tau < 0.3$": there & b.lag, r"$\tau > 0.3$": there & ~b.lag}
+    most = {name: [np.mean(x[k]) if k.any() else 0.0 for x in (lower, longer)] for name, k in kinds.items()}
+    parts = {name: min(shares) > 0.8 for name, shares in most.items()}
     late, slow = r.ki[b.tau > 0.5], r.ki[b.lag]
     gains = np.median(ki[b.tau > 0.5]), np.median(ki[b.lag])
     medians = f"median {np.median(rule):.2f} against {np.median(best):.2f}"
-    shares = f"{percent(most['lag'][0])} of the processes with tau < 0.3 and {percent(most['middle'][0])} of those"
+    shares = "; ".join(f"{name}: K and ki so on {percent(x)}, Ti on {percent(y)}" for name, (x, y) in most.items())
     return {
         "pid-Td-robustness": (
             worse > 0.8,
-            f"joint M is larger with the rule's Td than with MIGO's on {percent(worse)} of {len(inside)}, {medians}",
+            f"1/M differs so between the rule's Td and MIGO's on {percent(worse)} of {len(inside)}, M: {medians}",
         ),
-        "pid-conservative-below": (parts, f"K and ki lie below the optimum on {shares} with 0.3 < tau < 0.5."),
+        "pid-conservative-below": (parts, f"{there.sum()} processes, {shares}."),
         "pid-good-where-not-needed": (
             share_within(late, WELL) >= NEARLY_ALL and share_within(slow, WELL) < 0.5 and gains[1] > 4 * gains[0],
             f"ki for tau > 0.5: {robust.spread(late)}, derivative action adds a factor {gains[0]:.2f}; for tau < 0.3: "
@@ -169,10 +207,11 @@ def pid_step_robustness(b: Batch) -> Statements:
 
 def frequency(b: Batch, rule: str) -> Statements:
     """Sections 5.3.5 and 5.3.6: rule is "PI frequency" or "PID frequency"."""
-    r, M, fit, slug = b.over[rule], b.joint[rule], b.kappa > 0.2, rule.lower().replace(" ", "-")
+    r, M, slug = b.over[rule], b.joint[rule], rule.lower().replace(" ", "-")
+    fit = b.side(f"{slug}-near", b.kappa, "kappa")
     names = ("K", "Ti", "Td") if rule.startswith("PID") else ("K", "Ti")
     near = {name: share_within(getattr(r, name)[fit], NEAR) for name in names}
-    parts = {f"{name} fairly near for three of four": share >= 0.75 for name, share in near.items()}
+    parts = {f"{name} fairly near for nearly all": share >= NEARLY_ALL for name, share in near.items()}
     worst, fragile = M[fit].max(), np.mean(M[b.lag] > FRAGILE)
     shares = ", ".join(f"{name} {percent(share)}" for name, share in near.items())
     K, tanks = [s.settings[rule].K for s in b.studies if s.member.integrates], M[b.integrating]
@@ -183,7 +222,7 @@ def frequency(b: Batch, rule: str) -> Statements:
     return {
         f"{slug}-near": (
             parts | {"joint M below 2": worst < FRAGILE},
-            f"within 25 % of MIGO, {fit.sum()} processes with kappa > 0.2: {shares}; joint M up to {worst:.2f}.",
+            f"within 25 % of MIGO, {fit.sum()} processes of that kappa: {shares}; joint M up to {worst:.2f}.",
         ),
         f"{slug}-unfit": (
             fragile > 0.5,
@@ -200,18 +239,23 @@ def frequency(b: Batch, rule: str) -> Statements:
 def combined(b: Batch) -> Statements:
     """Section 5.3.7.1: the combined rule beside the two others."""
     c, r, f = (b.over[rule] for rule in ("PID combined", "PID step", "PID frequency"))
-    late = b.tau > 0.5
-    like = [share_within(getattr(c, p)[late] / getattr(o, p)[late], NEAR) for p in ("K", "Ti", "ki") for o in (r, f)]
-    nearer = np.mean(abs(np.log(c.ki[b.lag])) < abs(np.log(r.ki[b.lag])))
+    late = b.tau > 0.4  # balanced and more
+    names = ("K", "Ti", "Td", "ki")
+    like = {p: min(share_within(getattr(c, p)[late] / getattr(o, p)[late], NEAR) for o in (r, f)) for p in names}
+    closer = abs(np.log(r.ki[b.lag])) - abs(np.log(c.ki[b.lag]))
+    nearer = np.mean([b.said("combined-better").agrees("nearness", x) for x in closer])
     models = sum(abs(s.missed) < 1e-6 and not s.member.integrates for s in b.studies)
     return {
         "combined-similar": (
-            min(like) >= NEARLY_ALL,
-            f"K, Ti and ki within 25 % of both other rules on {percent(min(like))} or more of those with tau > 0.5",
+            {f"{name} of nearly all": share >= NEARLY_ALL for name, share in like.items()},
+            f"within 25 % of both other rules, {late.sum()} processes with tau > 0.4: "
+            + ", ".join(f"{name} {percent(share)}" for name, share in like.items())
+            + ".",
         ),
         "combined-better": (
             nearer > 0.7 and share_within(c.ki[b.lag], NEAR) > 2 * share_within(r.ki[b.lag], NEAR),
-            f"tau < 0.3: ki nearer to the optimum on {percent(nearer)}; {robust.spread(c.ki[b.lag])}, step rule: "
+            f"tau < 0.3: so is the distance of ki from the optimum on {percent(nearer)}; "
+            f"{robust.spread(c.ki[b.lag])}, step rule: "
             f"{robust.spread(r.ki[b.lag])} ({models} of {(~b.integrating).sum()} have an exact two-lag model)",
         ),
     }

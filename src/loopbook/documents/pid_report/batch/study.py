@@ -24,7 +24,7 @@ RULES = ("PI step", "PID step", "PI frequency", "PID frequency", "PID combined")
 
 
 @dataclass(frozen=True)
-class Study:
+class MemberStudy:
     """One process: data of exact experiments, and settings by rule name.
 
     settings holds "PI MIGO", "PID MIGO" and those of `RULES` that exist for the process; missing says why one does not.
@@ -49,7 +49,7 @@ class Study:
         return self.frequency.K180 / self.member.process.static_gain
 
 
-def study(member: Member, optimum: bool = True) -> Study:
+def study(member: Member, optimum: bool = True) -> MemberStudy:
     """Exact experiments on one process, all AMIGO rules that apply, and both optima (optimum=False leaves them out)."""
     process = member.process
     point = ultimate(process)
@@ -58,25 +58,25 @@ def study(member: Member, optimum: bool = True) -> Study:
     missing: dict[str, str] = {}
     missed = 0.0
     if member.integrates:
-        data = integrating_step.exact(process)
+        data: StepData | IntegratingStepData = integrating_step.exact(process)
         for action in ("PI", "PID"):
             settings[f"{action} step"] = rules[f"amigo-step-{action.lower()}-integrating"](data)
         settings["PID combined"] = rules["amigo-combined-pid-integrating"](short_pulse.exact(process))
     else:
-        data = step.exact(process)
-        settings["PI step"], settings["PID step"] = rules["amigo-step-pi"](data), rules["amigo-step-pid"](data)
+        data = found = step.exact(process)
+        settings["PI step"], settings["PID step"] = rules["amigo-step-pi"](found), rules["amigo-step-pid"](found)
         try:
-            lags, missed = combination.nearest(data, frequency)
-            settings["PID combined"] = rules["amigo-combined-pid"](lags, tau=data.tau)
+            lags, missed = combination.nearest(found, frequency)
+            settings["PID combined"] = rules["amigo-combined-pid"](lags, tau=found.tau)
         except (ExperimentError, RuleDoesNotApply) as error:
             missing["PID combined"] = str(error)
     for action in ("PI", "PID"):
         rule = rules[f"amigo-frequency-{action.lower()}"]
         settings[f"{action} frequency"] = rule(frequency, Kp=process.static_gain, extrapolate=True)
-    return Study(member, data, frequency, settings, missing, missed)
+    return MemberStudy(member, data, frequency, settings, missing, missed)
 
 
-def run(members: Sequence[Member] | None = None, progress: bool = True) -> tuple[Study, ...]:
+def run(members: Sequence[Member] | None = None, progress: bool = True) -> tuple[MemberStudy, ...]:
     """`study` for the whole batch (or some members), in order, with a progress bar on a terminal."""
     from tqdm import tqdm
 
@@ -104,7 +104,7 @@ class Ratios:
         return Ratios(self.rule, members, *(getattr(self, n)[keep] for n in ("tau", "kappa", "K", "Ti", "Td", "ki")))
 
 
-def ratios(studies: Sequence[Study], rule: str) -> Ratios:
+def ratios(studies: Sequence[MemberStudy], rule: str) -> Ratios:
     """The settings of one of `RULES` over the optimum of the same kind of regulator."""
     best = OPTIMUM[rule.split()[0]]
     kept = [s for s in studies if rule in s.settings]

@@ -16,10 +16,12 @@ from loopbook.loop.joint_robustness import joint_M
 from loopbook.process.transfer_function import Process
 from notebook_reports.ledger.verdicts import FAILS, HOLDS, PARTLY, claim_verdict
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def whole():
-    return says.Batch(run(progress=False))
+    return says.Batch(run(progress=False), load("pid-report").claims.__getitem__)
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,38 @@
+"""A design as plain data, for a program to read."""
+
+from pathlib import Path
+from typing import Any
+
+
+def results(study: Any) -> dict[str, Any]:
+    """The design as plain data: process, rule, the program's numbers, what to expect of it, what to mind.
+
+    Units: seconds, rad/s, degrees, those of the record. null stands for infinite and for unknown.
+    """
+    chosen, model = study.recommendation.chosen, study.model
+    names = ("gain", "time_constants", "delay", "integrating")
+    process = dict(zip(names, (model.gain, list(model.lags), model.delay, model.integrating), strict=True))
+    found = study.identified
+    fit = {"percent": found.chosen.fit, "rms": found.chosen.rmse} if found else None
+    widths = {p.name: p.half_width for p in found.chosen.parameters} if found else None
+    record = None
+    if found:
+        r = found.record
+        record = {"input": r.input_name, "output": r.output_name, "time_unit": r.time_unit,
+                  "steps": len(found.steps.list), "samples": len(r.time)}  # fmt: skip
+        if found.directions:
+            process["by_direction"] = {
+                "up": {"time_constants": list(found.directions.up.lags)},
+                "down": {"time_constants": list(found.directions.down.lags)},
+            }
+    return {
+        "data": Path(study.data).name,
+        "record": record,
+        "process": {**process, "source": model.source, "fit": fit, "half_widths_95": widths},
+        "aim": study.aim,
+        "rule": chosen.candidate.name,
+        **study.program.data(),
+        "limits_confirmed": study.actuator.confirmed,
+        "expected": study.running.expected,
+        "mind": study.mind,
+    }

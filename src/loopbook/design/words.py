@@ -1,0 +1,30 @@
+"""Names and values from data in sentences and table cells: always text, never markup."""
+
+from loopbook.identification.choice import Identified
+from notebook_reports.display import number
+
+
+def as_text(text: str) -> str:
+    """Text from a file as inline text that shows it as it is.
+
+    >>> as_text("cost [$]"), as_text("a`b")
+    ('cost [\\\\$]', "a'b")
+    """
+    printable = "".join(c if c.isprintable() else "?" for c in str(text))
+    return printable.replace("\\", "∖").replace("`", "'").replace("$", r"\$")
+
+
+class Units:
+    """The names and units of a record's signals; of a model "u" and "y" without units."""
+
+    def __init__(self, found: Identified | None):
+        record = found.record if found else None
+        self.u = as_text(record.input_name) if record else "u"
+        self.y = as_text(record.output_name) if record else "y"
+        self._u, self._y = (record.input_unit, record.output_unit) if record else ("", "")
+
+    def input(self, value: float, digits: int = 4) -> str:
+        return f"{number(value, digits)} {as_text(self._u)}".rstrip()
+
+    def output(self, value: float, digits: int = 4) -> str:
+        return f"{number(value, digits)} {as_text(self._y)}".rstrip()

@@ -1,0 +1,117 @@
+"""What a sensor does wrong: single samples far off, and a measurement cut at a limit. Said, and left out of a fit."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from loopbook.records.steps import noise_level
+
+FAR = 8.0  # standard deviations of the noise, for a sample that both its sides contradict
+WINDOW = 7  # samples
+LONGEST_SPIKE = 3  # samples
+LEAST_CUT = 0.02  # of the samples: a shorter stand-still at the extreme is no limit
+NAMED_ONE_BY_ONE = 5
+
+
+@dataclass(frozen=True)
+class Faults:
+    """left_out: samples that a fit must not use, shape (n,). cut: the share of the samples at a sensor's limit."""
+
+    left_out: np.ndarray
+    cut: float
+    notes: tuple[str, ...]
+
+
+def find_faults(time: np.ndarray, u: np.ndarray, y: np.ndarray) -> Faults:
+    """Outliers and cut-off stretches of the measurement y, shape (n,)."""
+    spikes = _spikes(y, u)
+    limits, notes = _cuts(np.where(spikes, np.nan, y))
+    if spikes.any():
+        shown = [f"{y[k]:.4g} at {time[k]:.4g} s" for k in np.flatnonzero(spikes)[:NAMED_ONE_BY_ONE]]
+        more = f" and {spikes.sum() - len(shown)} more" if spikes.sum() > len(shown) else ""
+        one = "is an outlier" if spikes.sum() == 1 else "are outliers"
+        notes.insert(0, f"The measurement {', '.join(shown)}{more} {one} (a sensor's glitch) and left out of the fit.")
+    return Faults(spikes | limits, float(limits.mean()), tuple(notes))
+
+
+def _spikes(y: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Samples, three in a row at most, that lie far from what both their sides agree on.
+
+    At the ends one side is judged alone: the first sample against the next ones, if those agree among themselves.
+    """
+    n = len(y)
+    sigma = max(noise_level(y), _quiet(y))
+    if n < 3 * WINDOW:
+        return np.zeros(n, bool)
+    if sigma == 0:
+        moves = np.abs(np.diff(y, 2))
+        sigma = float(np.median(moves[moves > 0])) / 1.65 if (moves > 0).any() else 0.0
+    median = _running_median(y, WINDOW)
+    rough = float(np.median(np.abs(y - median)))
+    threshold = max(FAR * max(sigma, 1.4826 * rough), 0.02 * float(np.ptp(median)))
+    found = np.abs(y - median) > threshold
+    for at, inside in ((0, y[1:WINDOW]), (n - 1, y[-WINDOW:-1])):
+        agree = float(np.ptp(inside))
+        found[at] = abs(y[at] - np.median(inside)) > max(threshold, 3 * agree)
+    runs = np.flatnonzero(np.diff(np.concatenate([[False], found, [False]]).astype(int)))
+    for start, end in zip(runs[::2], runs[1::2], strict=True):
+        beside = y[[i for i in (start - 1, end) if 0 <= i < n]]
+        stays = end - start > LONGEST_SPIKE or (start and np.min(np.abs(beside - y[start])) < threshold / 2)
+        stepped = len(beside) == 2 and abs(beside[1] - beside[0]) > np.min(np.abs(y[start] - beside))
+        if stays or stepped:
+            found[start:end] = False
+    return found if found.sum() <= 0.05 * n else np.zeros(n, bool)
+
+
+def _quiet(y: np.ndarray) -> float:
+    """A floor for the noise: the smallest step between the levels of the measurement."""
+    steps = np.diff(np.unique(y))
+    return float(np.median(steps)) / 2 if 0 < len(steps) < len(y) / 4 else 0.0
+
+
+def _running_median(y: np.ndarray, width: int) -> np.ndarray:
+    padded = np.pad(y, width // 2, mode="reflect")
+    return np.median(np.lib.stride_tricks.sliding_window_view(padded, width), axis=1)
+
+
+def _cuts(y: np.ndarray) -> tuple[np.ndarray, list[str]]:
+    """Stretches where the measurement stands still at its highest or lowest value, though elsewhere it does not."""
+    left_out, notes = np.zeros(len(y), bool), []
+    known = y[np.isfinite(y)]
+    if not len(known) or np.ptp(known) == 0:
+        return left_out, notes
+    for limit, word in ((known.max(), "highest"), (known.min(), "lowest")):
+        at = y == limit
+        if at.sum() >= max(5, LEAST_CUT * len(y)) and _is_cut(y, at, limit):
+            left_out |= at
+            notes.append(
+                f"The measurement stands at its {word} value, {limit:.4g}, for {at.sum()} of {len(y)} samples: the "
+                "sensor was cut off there; these samples were left out of the fit."
+            )
+    return left_out, notes
+
+
+def _is_cut(y: np.ndarray, at: np.ndarray, limit: float) -> bool:
+    """Does the curve run into the limit with a bend, or stand still where its noise should go on?"""
+    edges = np.flatnonzero(np.diff(at.astype(int)))
+    inner = [slice(a + 1, b + 1) for a, b in zip([-1, *edges], [*edges, len(y) - 1], strict=True)]
+    longest = max((s for s in inner if at[s.start]), key=lambda s: s.stop - s.start)
+    length = longest.stop - longest.start
+    if length < 5:
+        return False
+    away = y[np.isfinite(y) & ~at]
+    span = float(np.ptp(y[np.isfinite(y)]))
+    near = np.abs(away - limit) < 0.02 * span
+    moves = np.diff(away)
+    noisy = float(np.mean(moves[1:] * moves[:-1] < 0)) > 0.2 and len(np.unique(away)) > len(away) / 3
+    starts_there = longest.start == 0 and not near.any()
+    if noisy and not starts_there:
+        return True
+    slopes = []
+    for side in (y[max(longest.start - 6, 0) : longest.start], y[longest.stop : longest.stop + 6][::-1]):
+        side = side[np.isfinite(side)]
+        if len(side) >= 3:
+            slopes.append(abs(limit - side[0]) / len(side))
+    steepest = float(np.nanmax(np.abs(np.diff(y)))) if len(y) > 1 else 0.0
+    before_step = longest.start == 0
+    return bool(slopes) and not before_step and max(slopes) > 0.25 * steepest and max(slopes) * length > 0.2 * span

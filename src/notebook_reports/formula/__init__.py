@@ -1,0 +1,1 @@
+"""Formulas written as text, read as mathematics; what is read is never run."""
