@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tools import example_record as example
 
 from loopbook.design.model import ModelError
 from loopbook.design.study import Study
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
+from tools import example_record as example
 
 OWN = Path(__file__).parent / "own_process"
 

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tools import example_record as example
 
 from loopbook.design import page, placement, tables
 from loopbook.design.model import ModelError
@@ -15,6 +14,7 @@ from loopbook.design.study import Study
 from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
+from tools import example_record as example
 
 HEATED = Process.fopdt(0.68, 150.0, 18.0)
 

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tools import example_record as example
 
 from loopbook.identification.graphical import first_step, readings
 from loopbook.identification.models import FIRST_ORDER
 from loopbook.records.reading import read_record
 from loopbook.records.record import Record
+from tools import example_record as example
 
 
 def made(noise=0.0, length=120.0):
