@@ -7,6 +7,7 @@ import numpy as np
 
 from loopbook.plots.curves import COLOURS, STYLES, curves
 from notebook_reports.display import figure
+from notebook_reports.project.printable import printable
 
 MOST = 6
 """How many responses one figure can hold and still be read."""
@@ -76,7 +77,7 @@ def sheet(study: Any) -> Any:
 
 
 def _label(name: str, unit: str) -> str:
-    return (f"{name} [{unit}]" if unit else name).replace("$", r"\$")
+    return printable(f"{name} [{unit}]" if unit else name).replace("$", r"\$")
 
 
 def responses(evaluations: Sequence[Any], horizon: float) -> Any:

@@ -1,17 +1,17 @@
 """Names and values from data in sentences and table cells: always text, never markup."""
 
 from loopbook.identification.choice import Identified
-from notebook_reports.display import number
+from notebook_reports.display import literal, number
+from notebook_reports.project.printable import printable
 
 
 def as_text(text: str) -> str:
-    """Text from a file as inline text that shows it as it is.
+    """Text from a file as inline text that shows it as it is; what does not print as Python writes it.
 
-    >>> as_text("cost [$]"), as_text("a`b")
-    ('cost [\\\\$]', "a'b")
+    >>> as_text("cost [$]")
+    'cost [\\\\$]'
     """
-    printable = "".join(c if c.isprintable() else "?" for c in str(text))
-    return printable.replace("\\", "∖").replace("`", "'").replace("$", r"\$")
+    return literal(printable(str(text)))
 
 
 class Units:

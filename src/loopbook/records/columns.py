@@ -108,7 +108,7 @@ def choose(
     for role, chosen, found, option in (("Input", u, us, "--input"), ("Output", y, ys, "--output")):
         rest = [names[i].text for i in found if i not in (u, y)]
         more = f"; {', '.join(rest)} could be it too ({option})" if rest else ""
-        notes.append(f"{role}: column {names[chosen].text!r}{more}.")
+        notes.append(f"{role}: column '{names[chosen].text}'{more}.")
     others = [i for i in signals if i not in (u, y) and levels(data[i]) > 1]
     others = [i for i in others if names[i].says(Role.AMBIENT) or loud_u[i] > max(loud_y[i], 0)]
     return Columns(time, u, y, tuple(others), tuple(notes))

@@ -70,10 +70,10 @@ def read_record(
     said += list(columns.notes)
     if np.isfinite(data[u]).mean() < 0.5:
         data[u] = _held(data[u])
-        said.append(f"{names[u].text!r} is written only where it changes; it was held in between.")
+        said.append(f"'{names[u].text}' is written only where it changes; it was held in between.")
     for i in (u, y):
         if cells.is_state(i):
-            said.append(f"{names[i].text!r} holds words: on, open, yes and the like were read as 1, the others as 0.")
+            said.append(f"'{names[i].text}' holds words: on, open, yes and the like were read as 1, the others as 0.")
     read = _cleaned(samples * scale, [data[u], data[y], *[data[i] for i in columns.others]])
     others = tuple(Other(names[i].text, column) for i, column in zip(columns.others, read.values[2:], strict=True))
     faults = find_faults(read.time, read.values[0], read.values[1])
@@ -120,16 +120,16 @@ def _stamps(cells: Cells, names: list[Name], data: list[np.ndarray]) -> tuple[di
             days[i] = found
     if clocks and days and (joined := _joined_stamps(cells, min(days), min(clocks))) is not None:
         d, c = min(days), min(clocks)
-        note = f"Date {names[d].text!r} and time {names[c].text!r} were joined and turned into seconds."
+        note = f"Date '{names[d].text}' and time '{names[c].text}' were joined and turned into seconds."
         return {c: joined}, set(texts), [note]
     notes, stamps = [], {}
     for i, (seconds, passed) in clocks.items():
         stamps[i] = seconds - seconds[np.isfinite(seconds)][0]
         past = ", past midnight" if passed else ""
-        notes.append(f"Times of day in {names[i].text!r} were turned into seconds from the first sample{past}.")
+        notes.append(f"Times of day in '{names[i].text}' were turned into seconds from the first sample{past}.")
     for i, seconds in days.items():
         stamps[i] = seconds - seconds[np.isfinite(seconds)][0]
-        notes.append(f"Time stamps of {names[i].text!r} were turned into seconds from the first sample.")
+        notes.append(f"Time stamps of '{names[i].text}' were turned into seconds from the first sample.")
     return stamps, set(texts), notes
 
 

@@ -34,7 +34,7 @@ def sheet_cells(path: Path) -> Cells:
         raise RecordError(f"{path.name} holds no table")
     cells = table(rows, "cells", set(TIME_UNITS))
     if len(frames) > 1:
-        cells.notes.append(f"The sheet {name!r} was read, of {len(frames)} the one with the most rows.")
+        cells.notes.append(f"The sheet '{name}' was read, of {len(frames)} the one with the most rows.")
     return Cells(cells.heads, cells.rows, cells.delimiter, ".", cells.notes)
 
 

@@ -47,7 +47,6 @@ def record(folder, heads, name="r.csv"):
     return path
 
 
-@pytest.mark.xfail(strict=False, reason="the design report has characters of its own for a backslash and a back quote")
 @pytest.mark.parametrize("heads", [("$x^2$", "y$"), (r"u\new", r"\alpha"), ("`u`", "<b>y"), ("\x1b[31mu", "y\x07")])
 def test_a_name_of_data_is_text_in_a_report(tmp_path, heads):
     study = Study(record(tmp_path, heads, "r$1$`.csv"), "t")
