@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from loopbook.code.block import Block, BlockSignal, CodeError
-    from loopbook.code.emission import emit, statements
+    from loopbook.code.emission import emit, how_to_call, statements
     from loopbook.code.from_json import regulator_from_json
     from loopbook.code.laws import on_off_block, rst_block, scheduled_block, smith_block
     from loopbook.code.pid import pid_block, states_at_rest
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _PLACES = {
     "block": ("Block", "CodeError", "BlockSignal"),
     "running": ("controller",),
-    "emission": ("emit", "statements"),
+    "emission": ("emit", "how_to_call", "statements"),
     "from_json": ("regulator_from_json",),
     "laws": ("on_off_block", "rst_block", "scheduled_block", "smith_block"),
     "pid": ("pid_block", "states_at_rest"),
@@ -33,6 +33,7 @@ __all__ = [
     "CodeError",
     "controller",
     "emit",
+    "how_to_call",
     "on_off_block",
     "pid_block",
     "regulator_from_json",

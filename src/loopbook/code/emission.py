@@ -1,10 +1,14 @@
 """A controller written out in one language."""
 
 import re
+from itertools import takewhile
 
 from loopbook.code.block import Block, CodeError
 from loopbook.code.language import Options
 from loopbook.code.languages import languages
+
+USE = "How to use it:"
+"""Begins the lines of use."""
 
 
 def emit(
@@ -50,3 +54,19 @@ def statements(block: Block, equation: str, real: str = "float") -> dict[str, st
             raise CodeError(f"eq. {equation}: no statement of the {block.program.law} in {language.title} carries it")
         found[language.title] = next(filter(None, code))
     return found
+
+
+def how_to_call(block: Block, target: str = "c") -> str:
+    """The ten lines of use that stand above the program: begin, call, switch on from rest, manual, scaling.
+
+    Raises CodeError for an unknown target.
+
+    >>> from loopbook.code import pid_block
+    >>> how_to_call(pid_block(K=2.0, Ti=10.0, h=0.5)).splitlines()[0].strip()
+    'static pid loop;'
+    """
+    text = next((t for t in emit(block, target).values() if USE in t), "")
+    if not text:
+        raise CodeError(f"{target}: its text says how to use it in a line; c and st have ten")
+    lines = (re.sub(r"^ \*", "", line) for line in text[text.index(USE) + len(USE) :].splitlines()[1:])
+    return "\n".join(takewhile(str.strip, lines))

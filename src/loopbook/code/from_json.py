@@ -4,14 +4,15 @@
      "limits": {"u_low": 0.0, "u_high": 100.0}}
 
 What more may stand there: ``name``; ``start`` {u, y}, where the process was at rest; ``signals``, for y and u each
-{name, unit, span: [low, high], raw: [low, high]}, from which the scaling of the converters is written; ``data`` and
-``rule``, which become comments. Other forms: see `FORMS`.
+{name, unit, span: [low, high], raw: [low, high]}, from which the scaling of the converters is written; ``data``,
+``rule`` and ``mind``, which become comments. Other forms: see `FORMS`.
 """
 
 import json
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from loopbook.code.block import Block, BlockSignal, CodeError, identifier
@@ -20,6 +21,7 @@ from loopbook.code.pid import pid_block
 from loopbook.controllers.rst import PlacementError, Rst
 from loopbook.controllers.settings import PidSettings, SettingError
 
+WIDTH = 110  # of a comment
 PID_SETTINGS = ("K", "Ti", "Td", "Tf", "b", "c", "h", "Tt", "rate", "anti_windup")
 
 
@@ -45,6 +47,7 @@ KINDS: dict[str, Callable[[Any], bool]] = {
     "two numbers": lambda v: isinstance(v, list) and len(v) == 2 and all(map(_is_number, v)),
     "an object": lambda v: isinstance(v, Mapping),
     "a list of objects": lambda v: isinstance(v, list) and all(isinstance(one, Mapping) for one in v),
+    "a list of text": lambda v: isinstance(v, list) and all(isinstance(one, str) for one in v),
     "text": lambda v: isinstance(v, str),
 }
 
@@ -128,7 +131,8 @@ def _signal(data: Mapping[str, Any], name: str) -> BlockSignal:
 def _notes(data: Mapping[str, Any], y: BlockSignal, u: BlockSignal) -> tuple[str, ...]:
     made = [f"Designed from {data['data']} by {data['rule']}."] if {"data", "rule"} <= set(data) else []
     made += [f"{letter}: {signal}" for letter, signal in (("y", y), ("u", u)) if str(signal)]
-    return tuple(made)
+    cautions = _read(data, "the regulator", "mind", "a list of text", [])
+    return (*made, *(line for text in cautions for line in wrap(f"Mind: {text}", WIDTH)))
 
 
 def regulator_from_json(data: Mapping[str, Any] | str | Path, *, name: str = "", compensated: bool = False) -> Block:

@@ -15,9 +15,13 @@ def results(study: Any) -> dict[str, Any]:
     found = study.identified
     fit = {"percent": found.chosen.fit, "rms": found.chosen.rmse} if found else None
     widths = {p.name: p.half_width for p in found.chosen.parameters} if found else None
-    record = None
+    record = signals = None
     if found:
         r = found.record
+        signals = {
+            "y": {"name": r.output_name, "unit": r.output_unit},
+            "u": {"name": r.input_name, "unit": r.input_unit},
+        }
         record = {"input": r.input_name, "output": r.output_name, "time_unit": r.time_unit,
                   "steps": len(found.steps.list), "samples": len(r.time)}  # fmt: skip
         if found.directions:
@@ -28,6 +32,7 @@ def results(study: Any) -> dict[str, Any]:
     return {
         "data": Path(study.data).name,
         "record": record,
+        **({"signals": signals} if signals else {}),
         "process": {**process, "source": model.source, "fit": fit, "half_widths_95": widths},
         "aim": study.aim,
         "rule": chosen.candidate.name,

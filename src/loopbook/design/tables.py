@@ -3,6 +3,8 @@
 import math
 from collections.abc import Sequence
 
+from loopbook.code import regulator_from_json
+from loopbook.code.precision import cost
 from loopbook.design.candidates import Refused
 from loopbook.design.evaluation import Evaluation, Robustness
 from loopbook.design.program import GAINS, SampledProgram
@@ -149,3 +151,24 @@ def coefficients(program: SampledProgram) -> Table:
     share = f"{100 * max(program.delay_margin_left, 0.0):.0f} %"
     left = f"Sampling adds half an interval of dead time and leaves {share} of the delay margin."
     return Table(["", "coefficient", "value", "unit"], rows, "The discrete regulator", align, (*program.why, left))
+
+
+def single_precision(study: Study) -> Table:
+    """What the regulator pays for 32-bit numbers, at the record's rest and over its range of y."""
+    found = study.identified
+    if found is None:
+        return Table(
+            ["single precision"], [["A model has no range of measurement to compare with."]], "Single precision"
+        )
+    y = found.record.y
+    price = cost(regulator_from_json(study.results()), float(y.max() - y.min()))
+    units = {"y": as_text(found.record.output_unit), "u": as_text(found.record.input_unit)}
+    rows = [[what, value, units.get(unit, unit)] for what, value, unit in price.rows()]
+    advice = price.advice or ("Single precision is enough: no error that matters is lost in the integral.",)
+    return Table(
+        ["what", "value", "unit"],
+        rows,
+        "What 32-bit numbers and 12-bit converters cost",
+        ["left", "right", "left"],
+        advice,
+    )

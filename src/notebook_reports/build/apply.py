@@ -65,7 +65,8 @@ def items(
     unknown = [f for f in formats if f not in known]
     if unknown:
         raise UsageError(f"unknown format {', '.join(unknown)}; one or more of {','.join(known)}")
-    if target is not None and not target.is_dir() and (single := _single(files, target, formats, default)) is not None:
+    single = None if target is None or target.is_dir() else _single(files, target, formats, default, more)
+    if single is not None:
         return [single]
     wanted = list(formats) or [default]
     folders = [file.parent if target is None else target for file in files]
@@ -82,14 +83,20 @@ def program_stem(file: str, name: str) -> str:
     >>> program_stem("heater 2", "design")
     'heater_2_design'
     """
-    return re.sub(r"\W", "_", f"{file}_{name}")
+    return _importable(f"{file}_{name}")
+
+
+def _importable(name: str) -> str:
+    return re.sub(r"\W", "_", name)
 
 
 def _stem(label: str, name: str, program: bool) -> str:
     return program_stem(label, name) if program else f"{label}-{name}"
 
 
-def _single(files: Sequence[Path], target: Path, formats: Sequence[str], default: str) -> Item | None:
+def _single(
+    files: Sequence[Path], target: Path, formats: Sequence[str], default: str, more: Sequence[str]
+) -> Item | None:
     """The report of one file where the target names a file; None where it names a folder to be made."""
     end = target.resolve() if target.is_symlink() else target
     suffix = (target.suffix or end.suffix).lstrip(".")
@@ -105,7 +112,8 @@ def _single(files: Sequence[Path], target: Path, formats: Sequence[str], default
             f"{target} is a file without an ending: for {' and '.join(wanted)} give a folder, or a name with one"
         )
     first = suffix or wanted[0]
-    outputs = {f: end.resolve() if f == first else target.with_suffix(f".{f}").resolve() for f in wanted}
+    stems = {f: _importable(target.stem) if f in more else target.stem for f in wanted}
+    outputs = {f: end.resolve() if f == first else target.with_name(f"{stems[f]}.{f}").resolve() for f in wanted}
     return Item(files[0], outputs, files[0].stem)
 
 
@@ -161,7 +169,8 @@ def apply(
     given = [word for name, value in parameters for word in ("-p", name, value)]
     with tempfile.TemporaryDirectory(prefix="data-", dir=runtime.folder()) as temporary:
         todo: list[Job] = []
-        settings = Wanted(("pdf",), timeout=timeout, exporter=partial(_report, programs or {}, code))
+        stems = {item.label or item.data.stem: {f: p.stem for f, p in item.outputs.items()} for item in wanted}
+        settings = Wanted(("pdf",), timeout=timeout, exporter=partial(_report, programs or {}, stems, code))
         for i, item in enumerate(wanted):
             folder = Path(temporary) / str(i)
             folder.mkdir()
@@ -207,10 +216,18 @@ def _codeless(content: dict) -> dict:
     return {**content, "cells": cells}
 
 
-def _report(programs: Programs, code: bool, content: dict, format: str, notebook: Notebook, *about: Any) -> bytes:
+def _report(
+    programs: Programs,
+    stems: Mapping[str, Mapping[str, str]],
+    code: bool,
+    content: dict,
+    format: str,
+    notebook: Notebook,
+    *about: Any,
+) -> bytes:
     """A report in any of `FORMATS`; json is the data that the notebook shows as such, programs are made from it."""
     if format in programs:
-        return programs[format](_shown(content), program_stem(notebook.path.stem, "design"))
+        return programs[format](_shown(content), stems[notebook.path.stem][format])
     if format != "json":
         return reporter()(content if code else _codeless(content), format, notebook, *about)
     return (json.dumps(_shown(content), indent=2, ensure_ascii=False) + "\n").encode()

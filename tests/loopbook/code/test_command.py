@@ -1,6 +1,7 @@
 """``loopbook code`` and ``loopbook design --format c,st,js,py``: files, exit codes, nothing half-written."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from notebook_reports.build.apply import items
 from notebook_reports.project.project import UsageError
 
 ROOT = Path(__file__).parents[3]
+RECORD = ROOT / "notebooks" / "own_process" / "example.csv"
 PID = {"form": "standard", "name": "Oven 3", "settings": {"K": 2.0, "Ti": 8.0, "h": 0.5}}
 PID["limits"] = {"u_low": 0.0, "u_high": 100.0}
 
@@ -97,6 +99,21 @@ def test_a_design_writes_all_files_of_a_language(tmp_path):
     assert sorted(p.name for p in item.outputs.values()) == sorted(wanted)
     with pytest.raises(UsageError, match="unknown format xyz"):
         items([record], None, "design", ["xyz"], more=tuple(PROGRAMS))
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("output", [None, "out", "x.pdf", "my loop.pdf"], ids=str)
+def test_the_files_of_a_design_find_each_other_whatever_they_are_called(tmp_path, output):
+    record = tmp_path / "heater 2.csv"
+    record.write_bytes(RECORD.read_bytes())
+    target = [] if output is None else ["-o", str(tmp_path / output)]
+    done = CliRunner().invoke(main, ["design", str(record), *target, "--page", "--format", "pdf,c"])
+    assert done.exit_code == 0, done.output
+    (source,) = tmp_path.rglob("*.c")
+    (named,) = re.findall(r'#include "(.+)"', source.read_text())[:1]
+    assert (source.parent / named).is_file()
+    text = (source.parent / named).read_text()
+    assert "temperature [°C]" in text and " * Mind: " in text
 
 
 def test_what_a_press_gets_of_a_design_belongs_together():
