@@ -40,7 +40,7 @@ LANGUAGES = {
 @pytest.mark.parametrize("law", BLOCKS)
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_language_gives_the_bits_of_the_emitted_python(law, language, tmp_path):
-    block, chunk = BLOCKS[law], samples(1500, 7)
+    block, chunk = BLOCKS[law], samples(2000, 7)
     number = np.float32 if language in ("C float", "REAL") else float
     try:
         seen = LANGUAGES[language](block, chunk, tmp_path)
