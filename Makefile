@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -50,6 +50,23 @@ notebooks: $(READY) ## open JupyterLab on the project's kernel
 
 prove-design: $(READY) ## design for 300 synthetic records and run every loop on its true process
 	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300
+
+docs: all $(VENV)/ready-docs ## the documentation as a site that works offline: build/site/index.html
+	@$(BIN)/python tools/docs_site/build.py
+
+difference: all $(VENV)/ready-docs ## what changed in ledger and pages since a commit: make difference REF=main [OLD=its reports]
+	@mkdir -p build/difference
+	@$(BIN)/loopbook --root . diff "$(or $(REF),HEAD)" $(if $(OLD),--reports "$(OLD)" --pictures build/difference/pages) \
+	    > build/difference/difference.txt || test $$? -eq 1
+	@cat build/difference/difference.txt
+
+dist: all ## wheel, source distribution and the reports, as a release has them: build/dist
+	@$(BIN)/python tools/distribute.py build/dist
+
+core: dist ## the core's tests against the wheel in an environment with NumPy, SciPy, SymPy and matplotlib alone
+	@$(PYTHON) -m venv build/core
+	@build/core/bin/python -m pip install --quiet --find-links build/dist loopbook pytest hypothesis
+	@build/core/bin/python tools/core_tests.py
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench

@@ -17,6 +17,7 @@ WANTED = {
     "tools/uv.txt": ("--group", "installer"),
     "locks/browser.txt": ("--group", "browser"),
     "locks/cluster.txt": ("pyproject.toml", "--extra", "cluster"),
+    "locks/docs.txt": ("pyproject.toml", "--extra", "docs"),
     "locks/interop.txt": ("--group", "interop"),
     "locks/prove.txt": ("--group", "prove"),
     "locks/records.txt": ("pyproject.toml", "--extra", "records"),

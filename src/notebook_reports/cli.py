@@ -168,6 +168,32 @@ def check(project: Project, document: str, place: str, form: str) -> None:
 
 
 @main.command()
+@click.argument("ref", default="HEAD")
+@click.option("--format", "form", type=click.Choice(["text", "md"]), default="text", show_default=True)
+@click.option("--reports", type=click.Path(path_type=Path, exists=True, file_okay=False), metavar="FOLDER",
+              help="Reports built from REF: the changed pages are named too.")  # fmt: skip
+@click.option("--pictures", type=click.Path(path_type=Path, file_okay=False), metavar="FOLDER",
+              help="Write small pictures of the changed pages, before and after.")  # fmt: skip
+@click.pass_obj
+def diff(project: Project, ref: str, form: str, reports: Path | None, pictures: Path | None) -> None:
+    """What changed in the ledger since the commit REF: rows that are new, gone, or have another verdict.
+
+    The exit code is 1 where a verdict or a printed digit moved.
+    """
+    from notebook_reports.ledger import difference
+
+    if pictures is not None and reports is None:
+        raise UsageError("--pictures needs --reports FOLDER, the reports as they were")
+    changes = difference.difference(project, ref)
+    say(difference.as_markdown(changes, ref) if form == "md" else difference.as_text(changes, ref))
+    if reports is not None:
+        from notebook_reports.pages.changed_pages import changed, told
+
+        say(told(changed(reports, project.reports, pictures), form))
+    sys.exit(1 if any(change.moved for change in changes) else 0)
+
+
+@main.command()
 @click.argument("folder", type=click.Path(path_type=Path))
 def new(folder: Path) -> None:
     """A project of your own in a new FOLDER: a printed table, a notebook, the order of a book."""

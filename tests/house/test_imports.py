@@ -13,8 +13,9 @@ PACKAGES = ("derivations", "loopbook", "notebook_reports")
 APART = ("__main__", "cli", "design", "code", "tuner", "course", "documents")  # of loopbook: what uses the engine
 NOTEBOOKS = {"nbformat", "nbconvert", "nbclient", "papermill", "IPython", "ipykernel", "jupyter_client", "jupyter_core"}
 HEAVY = NOTEBOOKS | {
-    "bs4", "control", "dask", "defusedxml", "distributed", "fontTools", "jinja2", "matplotlib", "mistune", "mpmath",
-    "numpy", "pandas", "pygments", "scipy", "soupsieve", "sympy", "tinycss2", "tqdm", "traitlets", "typst",
+    "PIL", "bs4", "control", "dask", "defusedxml", "distributed", "fontTools", "jinja2", "matplotlib", "mistune",
+    "mpmath", "numpy", "pandas", "pygments", "pypdfium2", "scipy", "soupsieve", "sympy", "tinycss2", "tqdm",
+    "traitlets", "typst",
 }  # fmt: skip
 """Third-party libraries that are worth waiting for only where they are used."""
 ONE_SYSTEM = ("fcntl", "msvcrt", "pwd", "resource")

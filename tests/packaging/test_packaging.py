@@ -63,7 +63,7 @@ def test_a_lock_of_its_own_has_the_versions_of_the_environment_and_repeats_nothi
 
 
 def test_no_package_index_is_named():
-    assert (ROOT / "requirements.txt").read_text(encoding="utf-8").strip() == "-r environment.txt"
+    assert (ROOT / ".binder/requirements.txt").read_text(encoding="utf-8").strip() == "-r ../environment.txt"
     for name in (*lock.WANTED, "pyproject.toml", "Makefile", ".ci/run"):
         text = (ROOT / name).read_text(encoding="utf-8")
         assert not re.search(r"index-url|find-links|://", text), name

@@ -52,7 +52,7 @@ def fitting(integrates: bool | None, action: str) -> list[str]:
 
 
 class _Rules(Mapping[str, TuningRule]):
-    """`rules`, looked up when it is first needed."""
+    """Every tuning rule by its name, looked up when it is first needed; `lb.tune` takes these names."""
 
     def __getitem__(self, name: str) -> TuningRule:
         if name not in rules():
