@@ -65,7 +65,7 @@ dist: all ## wheel, source distribution and the reports, as a release has them: 
 
 core: dist ## the core's tests against the wheel in an environment with NumPy, SciPy, SymPy and matplotlib alone
 	@$(PYTHON) -m venv build/core
-	@build/core/bin/python -m pip install --quiet --find-links build/dist loopbook pytest hypothesis
+	@build/core/bin/python -m pip install --quiet build/dist/*.whl pytest hypothesis
 	@build/core/bin/python tools/core_tests.py
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
