@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -70,6 +70,9 @@ core: dist ## the core's tests against the wheel in an environment with NumPy, S
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench
+
+profile: $(READY) ## the slowest cells and imports of the notebooks: make profile [ONLY=pid_report]
+	@$(BIN)/python tools/profile.py $(ONLY)
 
 verify: $(READY) ## build twice under other folders, homes, users, languages and compare every byte
 	@$(BIN)/loopbook --root . verify
