@@ -21,9 +21,9 @@ import numpy as np
 
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
+from loopbook.loop.process_phase import NoSuchFrequency, frequency_at, phase
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopTransfer
-from loopbook.process.frequency_response import NoSuchFrequency, frequency_at, phase
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo_branch import (
     M_DEFAULT,
@@ -40,6 +40,7 @@ from loopbook.tuning.rule import TuningRule
 
 __all__ = ["M_DEFAULT", "Migo", "circle", "clearance", "computed", "is_stable", "pi", "pid", "smooth_branch"]
 
+ON_AXIS = 1e-9
 SOURCE = "Åström, Panagopoulos, Hägglund (1998, 2002); pid-report, section 5.3"
 
 
@@ -108,7 +109,7 @@ def _reference(process: Process) -> float:
     """A frequency that scales all grids: where the phase is -150 degrees."""
     if not process.num[-1] / process.den[np.flatnonzero(process.den)[-1]] > 0:
         raise RuleDoesNotApply("MIGO: the gain of the process is not positive; change the sign of u, tune, change back")
-    if (process.poles.real > 1e-12).any():
+    if (process.poles.real > ON_AXIS * abs(process.poles)).any():
         raise RuleDoesNotApply(f"MIGO: the process is unstable by itself, poles {process.poles}")
     try:
         return frequency_at(process, math.radians(-150))
@@ -127,7 +128,11 @@ def _pi_frequency(process: Process, scale: float, M: float) -> float:
     if not rising.size:
         raise RuleDoesNotApply("MIGO PI: ki has no smooth maximum under this robustness")
     best = rising[np.argmax(ki[rising])]
-    return float(brentq(lambda x: smooth_branch(process, np.array(x), M)[2], w[best], w[best + 1], rtol=1e-14))
+    return float(
+        brentq(
+            lambda x: smooth_branch(process, np.array(x), M)[2], w[best], w[best + 1], xtol=1e-15 * w[best], rtol=1e-14
+        )
+    )
 
 
 def _branch_end(process: Process, start: float, M: float) -> float:
@@ -159,7 +164,9 @@ def _where_derivative_is(process: Process, kd: float, low: float, high: float, M
     """The touching frequency in (low, high) at which the branch has the derivative gain kd."""
     from scipy.optimize import brentq
 
-    return float(brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, rtol=1e-13))
+    return float(
+        brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, xtol=1e-15 * low, rtol=1e-13)
+    )
 
 
 def _second_touch(
@@ -179,7 +186,7 @@ def _second_touch(
         ends = [local_clearance(process, x, near, M)[0] for x in (low, high)]
         if not ends[0] > 0 > ends[1]:
             return _bisected(process, scale, start, high, M)
-        w = float(brentq(lambda x: local_clearance(process, x, near, M)[0], low, high, rtol=1e-12))  # noqa: B023
+        w = float(brentq(lambda x: local_clearance(process, x, near, M)[0], low, high, xtol=1e-15 * low, rtol=1e-12))  # noqa: B023
         second = local_clearance(process, w, near, M)[1]
         depth, at = deepest(process, scale, smooth_branch(process, np.array([w]), M), M, density=8)
         if depth[0] >= -TOLERANCE:
