@@ -12,6 +12,26 @@ from itertools import pairwise
 import numpy as np
 
 ROUNDING = 1e-12
+DOUBTFUL = 1e-2
+
+
+def clearly_left(p: list[float]) -> bool:
+    """Do all roots lie to the left, by Routh's array, with no difference in it small enough to be doubted?
+
+    >>> clearly_left([1.0, 3.0, 3.0, 1.0]), clearly_left([1.0, 1.0, 1.0, 1.0 - 1e-9])
+    (True, False)
+    """
+    if not p[0] or min(c / p[0] for c in p) <= 0:
+        return False
+    above, row = [c / p[0] for c in p[::2]], [c / p[0] for c in p[1::2]]
+    while row:
+        factor, below = above[0] / row[0], []
+        for a, b in zip(above[1:], [*row[1:], 0.0], strict=False):
+            below.append(a - factor * b)
+            if below[-1] <= DOUBTFUL * a:
+                return False
+        above, row = row, below
+    return True
 
 
 def undecided(p: np.ndarray, width: np.ndarray, roots: np.ndarray, border: float) -> tuple[float | None, bool]:
