@@ -93,7 +93,7 @@ def nearest(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)
     _, safe, dead, e1, equal, *_ = _functions("numpy")
     T1 = safe(ALPHAS, frequency.w180, step.Kp, frequency.Ku)
     L1 = dead(frequency.w180, T1, ALPHAS * T1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         values = e1(T1, ALPHAS * T1, L1, step.T63, tail)
     values[-1] = equal(T1[-1], T1[-1], L1[-1], step.T63, tail)
     values = np.where(step.T63 <= L1, tail - 1.0, values)

@@ -43,7 +43,8 @@ def undecided(p: np.ndarray, width: np.ndarray, roots: np.ndarray, border: float
     if not roots.size:
         return None, True
     w = np.concatenate([abs(roots.imag), abs(roots)])
-    least = np.abs(np.polyval(p, 1j * w)) / np.polyval(width, w)
+    room = np.polyval(width, w)  # zero where p(0) = 0: a root at the origin
+    least = np.abs(np.polyval(p, 1j * w)) / np.where(room, room, 1.0)
     near = np.append(abs(roots.real) <= border * abs(roots), np.zeros(len(roots), dtype=bool))
     on_axis = np.flatnonzero((near | (least <= ROUNDING)) & (np.arange(len(w)) < len(roots)))
     if on_axis.size:

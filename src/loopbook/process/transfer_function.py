@@ -17,6 +17,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.extras import needed
 from loopbook.numerics import horner, polynomial_text
+from loopbook.numerics.multiple_roots import put_together
 from loopbook.numerics.real_numbers import plain, positive, real
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.numerics.units import characteristic_time, in_units
@@ -58,7 +59,8 @@ def _row(values: Any, name: str) -> list[float]:
 
 def _roots(p: Sequence[float]) -> np.ndarray:
     time = characteristic_time((1.0,), p, 0.0)
-    return np.roots(in_units(p, time)).astype(complex) / time
+    inside = in_units(p, time)
+    return put_together(inside, np.roots(inside)) / time
 
 
 @dataclass(frozen=True)
