@@ -28,9 +28,9 @@ from loopbook.process.transfer_function import Process, ProcessError
 
 LARGEST = 300.0
 LOST = 1e5
-MANY = 4
+MANY = 2
 PLACES = 64
-AFFORDABLE = 256
+LEAST = 745.0  # exp(-LEAST) is the least number above zero
 
 
 def held(plant: StateSpace, duration: float) -> tuple[np.ndarray, np.ndarray]:
@@ -76,7 +76,7 @@ class SampledProcess:
         """(B, A) with y = B/A u, coefficients of z^0, z^-1, ...; A starts with 1, B with the zeros of the delay."""
         A, n = np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h)))), self.process.order
         B = _numerator(A, self._markov)[: n + (2 if self.tau else 1)]
-        if n >= MANY and n * _pace(self.process, self.h) <= AFFORDABLE:
+        if n >= MANY:
             added = _numerator(abs(A), abs(self._markov))[: len(B)]
             if (abs(B) * LOST < added).any():
                 B, A = exact_polynomials(self.process, self.h, self.tau)
@@ -165,8 +165,8 @@ def exact_polynomials(process: Process, h: float, tau: float) -> tuple[np.ndarra
         rows[i][n] = (b[i + 1] - b[0] * a[i + 1]) * step ** (i + 1) / pace**i
     input_size = max(abs(row[n]) for row in rows)
     scaled = [[*row[:n], row[n] / input_size if input_size else row[n]] for row in rows]
-    largest = max(sum(map(abs, row)) for row in scaled)
-    numbers = FixedPoint(PLACES * (n + 1) + 8 * math.ceil(largest))
+    decay = min(float(abs(process.poles.real).sum()) * h, LEAST)
+    numbers = FixedPoint(PLACES * (n + 2) + math.ceil(1.5 * decay) + 4 * n * pace.bit_length())
     share = Fraction(tau) / step
     late, early = (
         numbers.exponential(numbers.matrix([[x * s for x in row] for row in scaled])) for s in (1 - share, share)
