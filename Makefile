@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design lock
+.PHONY: all test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design prove-scaling lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -36,7 +36,7 @@ quick: $(READY) ## while you work: no kernel, no compiler, nothing that takes lo
 	@$(BIN)/python -m pytest -n auto --dist loadfile --quick
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 check: $(READY) ## the ledger in a terminal: what holds, and every row that does not
 	@$(BIN)/loopbook --root . check
@@ -50,6 +50,9 @@ notebooks: $(READY) ## open JupyterLab on the project's kernel
 
 prove-design: $(READY) ## design for 300 synthetic records and run every loop on its true process
 	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300
+
+prove-scaling: $(READY) ## 2,000 seeded loops in other units of time, y and u: what comes out otherwise
+	@$(BIN)/python tests/loopbook/scaling/prove_scaling.py 2000
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench
