@@ -9,7 +9,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.experiments import step
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
 from notebook_reports.display import number
 

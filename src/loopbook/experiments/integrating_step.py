@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from loopbook.experiments.data import IntegratingStepData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, sum_of_lags
 from loopbook.experiments.step import single_step
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
@@ -44,7 +44,7 @@ def run(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> R
     """Make the experiment: a step at a twentieth of the record, long enough for all lags to end."""
     if not _integrates_once(plant.process):
         raise ExperimentError("the process does not integrate: use step.run")
-    lags = sum(1 / abs(p.real) for p in plant.process.poles if abs(p) > 1e-12)
+    lags = sum_of_lags(plant.process)
     horizon = horizon or 3 * plant.process.delay + 20 * lags + (0.0 if lags else plant.process.delay)
     return plant.play([(horizon / 19, amplitude)], horizon * 20 / 19)
 

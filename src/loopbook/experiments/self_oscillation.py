@@ -11,7 +11,7 @@ import numpy as np
 from loopbook.controllers.regulator import Regulator
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, smooth
-from loopbook.process.frequency_response import NoSuchFrequency, ultimate
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.records.record import Record
 from loopbook.records.steps import noise_level
 from loopbook.response.closed_loop import closed_loop_step

@@ -9,7 +9,7 @@ import numpy as np
 
 from loopbook.experiments import step
 from loopbook.experiments.data import IntegratingPulseData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, sum_of_lags
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
 
@@ -20,7 +20,7 @@ def run(plant: Plant, width: float, area: float = 1.0, horizon: float | None = N
         raise ExperimentError("the process does not integrate: its pulse response returns to zero; use step.run")
     if not width > 0:
         raise ExperimentError(f"width = {width!r} s: a pulse lasts some time")
-    lags = sum(1 / abs(p.real) for p in plant.process.poles if abs(p) > 1e-12)
+    lags = sum_of_lags(plant.process)
     horizon = horizon or 2 * plant.process.delay + 12 * lags + 5 * width
     start = horizon / 19
     return plant.play([(start, area / width), (start + width, 0.0)], horizon * 20 / 19)

@@ -131,6 +131,11 @@ class Loop:
             num, den = np.convolve(term.num, self._rows[1]), np.asarray(term.den)
             while den[-1] == 0 and num[-1] == 0 and len(den) > 1:
                 num, den = num[:-1], den[:-1]
+            if den[-1] == 0:
+                raise ResponseError(
+                    "the disturbance's path has poles that do not decay and are not the process's own: no regulator "
+                    "can hold it"
+                )
             total += num[-1] / den[-1]
         return float(total)
 
@@ -228,7 +233,7 @@ class StepResponse:
     def _vanishing_error(self) -> Signal:
         left = (1.0 if self.source == "reference" else 0.0) - self.final[0]
         largest = max(abs(self.error.peak()[1]), abs(left))
-        if abs(left) > 1e-9 * max(largest, 1e-300):
+        if abs(left) > SETTLED * largest:
             raise LoopError(
                 f"the error tends to {left:.6g}, not to zero, so that its integral is infinite: the regulator has no "
                 "integral action that removes it"

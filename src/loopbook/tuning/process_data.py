@@ -31,7 +31,7 @@ from loopbook.experiments.data import (
     TwoLagData,
 )
 from loopbook.experiments.plant import ExperimentError
-from loopbook.process.frequency_response import NoSuchFrequency, ultimate
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.half_rule import half_rule, lags_of
 from loopbook.tuning.result import RuleDoesNotApply

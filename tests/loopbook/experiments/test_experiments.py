@@ -20,7 +20,9 @@ from loopbook.experiments import (
 )
 from loopbook.experiments.data import FrequencyData, StepData
 from loopbook.experiments.plant import ExperimentError, Plant
-from loopbook.process.frequency_response import NoSuchFrequency, frequency_at, phase, response, ultimate
+from loopbook.loop.process_phase import NoSuchFrequency, frequency_at, phase
+from loopbook.loop.ultimate_point import ultimate
+from loopbook.process.frequency_response import response
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
 from notebook_reports.ledger.verdicts import rounds_to

@@ -7,7 +7,7 @@ import pytest
 
 from loopbook.experiments.data import FrequencyData, StepData
 from loopbook.loop.continuous import Loop
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
 from loopbook.tuning import migo, tune
 from loopbook.tuning.half_rule import half_rule

@@ -16,7 +16,7 @@ from loopbook.controllers.pid_forms import PidStandard
 from loopbook.documents.open import printed
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
 from loopbook.response.step_metrics import sampled
 from loopbook.tuning.by_name import tune

@@ -16,6 +16,8 @@ from notebook_reports.ledger.printed_data import Claim
 from notebook_reports.ledger.verdicts import Truth
 
 WELL, NEAR, NEARLY_ALL, FRAGILE = 0.15, 0.25, 0.9, 2.0
+BEYOND = 1 + 1e-9
+"""A process on a border of the source, such as tau = 1/2 for T = L, counts as beyond it: rounding must not decide."""
 Statements = dict[str, tuple[Mapping[str, Truth] | Truth, str]]
 
 
@@ -29,8 +31,8 @@ class Batch:
 
     def __init__(self, studies: Sequence[MemberStudy], said: Callable[[str], Claim]):
         self.studies, self.said = tuple(studies), said
-        self.tau = np.array([s.tau for s in studies])
-        self.kappa = np.array([s.kappa for s in studies])
+        self.tau = np.array([s.tau for s in studies]) * BEYOND
+        self.kappa = np.array([s.kappa for s in studies]) * BEYOND
         self.integrating = np.array([s.member.integrates for s in studies])
         self.lag, self.balanced = self.tau < 0.3, (self.tau > 0.4) & (self.tau < 0.6)
         self.middle, self.delay = (self.tau > 0.3) & (self.tau < 0.5), self.tau > 0.6

@@ -14,7 +14,7 @@ from loopbook.documents.pid_report.batch.processes import Member, batch
 from loopbook.experiments import combination, integrating_step, short_pulse, step
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
 from loopbook.experiments.plant import ExperimentError
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.tuning import migo
 from loopbook.tuning.registry import RULES as rules
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
