@@ -64,9 +64,8 @@ def main() -> int:
         rows += [(seconds, name, line) for seconds, line in mine]
         totals.append((sum(seconds for seconds, _ in mine), name))
         modules += imports(notebook)
-    print(
-        f"{sum(t for t, _ in totals):.1f} s of CPU in {len(rows)} cells of {len(notebooks)} notebooks, imports included\n"
-    )
+    whole = sum(seconds for seconds, _ in totals)
+    print(f"{whole:.1f} s of CPU in {len(rows)} cells of {len(notebooks)} notebooks, imports included\n")
     print("the slowest notebooks")
     for seconds, name in sorted(totals, reverse=True)[:5]:
         print(f"  {seconds:7.2f} s  {name}")
