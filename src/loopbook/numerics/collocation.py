@@ -135,7 +135,7 @@ def _triangular_butcher() -> tuple[np.ndarray, np.ndarray]:
 
 
 def _node_by_node(A: np.ndarray, length: float, right: np.ndarray) -> np.ndarray:
-    """X - length (a x A) X = right, from the last row of the triangular form of a up: p systems of n, not one of p n."""
+    """X - length (a x A) X = right, from the last row of the triangular form of a up: p systems of n unknowns."""
     T, Q = _triangular_butcher()
     X = np.tensordot(Q.conj().T, right, axes=1)
     AX = np.zeros_like(X)

@@ -39,7 +39,7 @@ PNG = base64.b64encode(
 PLACEHOLDERS = {
     "PIXEL": f"data:image/png;base64,{PNG}",
     "PNG": PNG,
-    "LINES": "\n".join(f"line of an output {i}" for i in range(20_000)),
+    "LINES": "\n".join(f"line of an output {i}" for i in range(17_500)),
     "MARKS": "\n\n".join(
         " ".join(f"{mark}word{20 * i + j}" for j in range(20)) + "."
         for i, mark in enumerate([":", ";", ".", "!", ")", "/"])
