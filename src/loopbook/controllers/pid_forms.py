@@ -11,7 +11,7 @@ weighs the reference in the proportional part. Ti = inf means no integral action
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -32,6 +32,10 @@ def _finite(**named: float) -> None:
 def _time(name: str, value: float, infinite: bool = False) -> None:
     if math.isnan(value) or value < 0 or (math.isinf(value) and not infinite):
         raise FormError(f"{name} = {value!r} s must be a time, zero or longer{' or inf' if infinite else ''}")
+
+
+LEFT_OUT = cast(float, None)
+"""For N or Tf: it follows from the other one, and is a number as soon as the form is made."""
 
 
 class _Form:
@@ -134,8 +138,8 @@ class PidStandard(_Form):
     Td: float = 0.0
     b: float = 1.0
     c: float = 0.0
-    N: float | None = None
-    Tf: float | None = None
+    N: float = LEFT_OUT
+    Tf: float = LEFT_OUT
 
     def __post_init__(self) -> None:
         _finite(K=self.K, b=self.b, c=self.c)
@@ -203,8 +207,8 @@ class PidSeries(_Form):
     K: float
     Ti: float = math.inf
     Td: float = 0.0
-    N: float | None = None
-    Tf: float | None = None
+    N: float = LEFT_OUT
+    Tf: float = LEFT_OUT
 
     def __post_init__(self) -> None:
         checked = PidStandard(self.K, self.Ti, self.Td, N=self.N, Tf=self.Tf)

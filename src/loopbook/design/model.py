@@ -44,7 +44,7 @@ class Model:
     covariance: Any = None
     source: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         lags = tuple(sorted((float(T) for T in self.lags), reverse=True))
         object.__setattr__(self, "lags", lags)
         if not np.isfinite([self.gain, self.delay, *lags]).all() or self.gain == 0:

@@ -70,7 +70,7 @@ class Study:
     unlimited: bool = False
     seed: int = 0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if bool(self.K180) != bool(self.T180):
             raise ModelError(f"K180 = {self.K180}, T180 = {self.T180}: an ultimate point needs both, or neither")
         if self.u_low is not None and self.u_high is not None and not self.u_low < self.u_high:
@@ -259,9 +259,8 @@ class Study:
     @property
     def line(self) -> str:
         """The record in one line: what was taken for what."""
-        if self.record is None:
-            return f"model: {self.model.source}"
-        return line(self.record, self.identified.steps)
+        found = self.identified
+        return f"model: {self.model.source}" if found is None else line(found.record, found.steps)
 
     @property
     def mind(self) -> list[str]:

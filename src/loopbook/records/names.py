@@ -174,15 +174,17 @@ def name_and_unit(head: str) -> tuple[str, str]:
     >>> name_and_unit("Time [s]"), name_and_unit("time_ms"), name_and_unit("ms"), name_and_unit("pwm")
     (('Time', 's'), ('time_ms', 'ms'), ('ms', 'ms'), ('pwm', ''))
     """
+    head = " ".join(head.split())  # a head of several lines is one name
     found = PAIR.fullmatch(head)
+    assert found, "each part of the pattern may be absent"
     name, unit = found[1], next((g for g in found.groups()[1:] if g), "")
     if not unit:
         words = words_of(head)
         unit_word = words[-1] if words else ""
         timely = len(words) == 1 or Name("", "", words[:-1]).says(Role.TIME) or "in" in words
         if unit_word in TIME_UNITS and timely and (len(words) > 1 or unit_word in LONE_UNITS):
-            return head.strip(), unit_word
-    return name or head.strip(), unit
+            return head, unit_word
+    return name or head, unit
 
 
 def read_name(head: str) -> Name:

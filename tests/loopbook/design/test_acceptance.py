@@ -25,7 +25,7 @@ def test_designed_loops_hold_on_the_true_process(tmp_path, share):
 
 
 def test_the_records_come_in_every_guise_and_with_every_fault(tmp_path):
-    made = [make(seed, tmp_path) for seed in range(60)]
+    made = [make(seed, tmp_path) for seed in range(120)]
     without = set() if find_spec("pyarrow") else {"parquet"}
     assert {m.guise for m in made} == set(GUISES) - without and {m.fault for m in made} == set(FAULTS)
 

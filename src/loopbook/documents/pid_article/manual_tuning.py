@@ -12,7 +12,7 @@ from functools import cache
 
 import numpy as np
 
-from loopbook.controllers.pid_forms import PidStandard
+from loopbook.controllers.pid_forms import LEFT_OUT, PidStandard
 from loopbook.documents.open import printed
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
@@ -106,7 +106,7 @@ def changed(pid: PidStandard, setting: str, factor: float) -> PidStandard:
         raise ValueError(
             f"setting = {setting!r}, factor = {factor}: one of {', '.join(SETTINGS)} and a positive factor"
         )
-    return replace(pid, **{setting: factor * getattr(pid, setting)}, N=None)
+    return replace(pid, **{setting: factor * getattr(pid, setting)}, N=LEFT_OUT)
 
 
 def cells(loop: Loop, factor: float) -> dict[tuple[str, str], bool]:

@@ -39,8 +39,6 @@ class ReportExporter(TemplateExporter):
         help="What cannot be shown: a numbered box in its place and a list at the end (mend), or an error (strict).",
     ).tag(config=True)
 
-    export_from_notebook = None
-
     @default("extra_template_basedirs")
     def _own_templates(self) -> list[str]:
         return [str(TEMPLATES)]

@@ -1,8 +1,9 @@
 """Markdown cells, through nbconvert's own mathematics-aware mistune parsers, into a report's blocks."""
 
-import functools
 import html
 import re
+from collections.abc import Sequence
+from functools import cache, partial
 from typing import Any
 
 from notebook_reports.export.errors import CannotShow
@@ -48,7 +49,7 @@ _EMPHASIS = {"emphasis": "emph", "strong": "strong", "strikethrough": "strike"}
 _TABLE_RULE = re.compile(r"^ {0,3}\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)+\|?\s*$", re.MULTILINE)
 
 
-@functools.cache
+@cache
 def _parser() -> Any:
     from mistune import Markdown, import_plugin
     from nbconvert.filters.markdown_mistune import MathBlockParser, MathInlineParser
@@ -87,7 +88,7 @@ class _Cell:
     def blocks(self, tokens: list[dict[str, Any]]) -> list[Block]:
         blocks: list[Block] = []
         for token in tokens:
-            blocks.extend(self.reading.attempt(lambda token=token: self.block(token), _written(token)))
+            blocks.extend(self.reading.attempt(partial(self.block, token), _written(token)))
         return blocks
 
     def block(self, token: dict[str, Any]) -> list[Block]:
@@ -163,7 +164,7 @@ class _Cell:
         stack: list[tuple[str, str, list[Inline | Display]]] = [("", "", [])]
         for token in tokens:
             if token["type"] != "inline_html":
-                stack[-1][2].extend(self.reading.attempt(lambda token=token: self.node(token), token.get("raw", "")))
+                stack[-1][2].extend(self.reading.attempt(partial(self.node, token), token.get("raw", "")))
                 continue
             raw = token["raw"]
             if is_no_tag(raw):
@@ -195,6 +196,7 @@ class _Cell:
         """What stands between two tags, as the first asks for it."""
         tree, _ = tree_of(raw)
         tag, looks = tree.find(), Looks(tree)
+        assert tag is not None, "the text of a tag holds a tag"
         look = looks.of(tag)
         if look.hidden:
             return []
@@ -210,7 +212,7 @@ class _Cell:
             return [*before, *HtmlReader(self.reading, looks, [], True).dressed(tag, look, children)]
         raise CannotShow(f"HTML {raw}, which a page cannot show; write it in Markdown")
 
-    def node(self, token: dict[str, Any]) -> list[Inline | Display]:
+    def node(self, token: dict[str, Any]) -> Sequence[Inline | Display]:
         kind = token["type"]
         match kind:
             case "text":

@@ -15,6 +15,7 @@ from notebook_reports.export.model import (
     Figure,
     Grid,
     Heading,
+    Inline,
     Link,
     Listing,
     Mend,
@@ -74,7 +75,7 @@ def read(
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
         cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
     first = _take_title(cells)
-    words = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
+    words: list[Inline] = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
     words = words_only(words)
     report = Report(name, words, first.anchor if first else "", cells, document, chapter, language, author)
     report.contents = bool(notebook.get("metadata", {}).get("loopbook", {}).get("contents", True))
@@ -139,7 +140,7 @@ def _raw(source: str, metadata: Any, reading: Reading) -> list[Block]:
     if mime == "text/html":
         return read_html(source, reading)
     if mime == "text/latex" and not reading.mending:
-        return reading.display(source)
+        return [*reading.display(source)]
     if mime == "text/plain" or reading.mending:
         return [Listing(visible(source.expandtabs(4)).strip("\n"))] if source.strip() else []
     raise CannotShow(f"a raw cell of the kind {mime}; make it Markdown, or plain text")
@@ -150,7 +151,10 @@ def _take_title(cells: list[ReportCell]) -> Heading | None:
     for cell in cells:
         for i, block in enumerate(cell.blocks):
             if isinstance(block, Heading):
-                return cell.blocks.pop(i) if block.level == 1 else None
+                if block.level != 1:
+                    return None
+                del cell.blocks[i]
+                return block
     return None
 
 

@@ -2,7 +2,8 @@
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
@@ -23,11 +24,11 @@ MAX_TEXT = 400_000
 Bundle = dict[str, Any]
 
 
-def read_outputs(outputs: list[Any], reading: Reading) -> list[Block]:
+def read_outputs(outputs: Iterable[Any], reading: Reading) -> list[Block]:
     """The blocks of all outputs; what cannot be shown is noted in `reading.problems`."""
     blocks: list[Block] = []
     for output in _merged(outputs):
-        blocks.extend(reading.attempt(lambda output=output: read_output(output, reading)))
+        blocks.extend(reading.attempt(partial(read_output, output, reading)))
     return blocks
 
 
@@ -44,13 +45,13 @@ def read_output(output: Any, reading: Reading) -> list[Block]:
     raise CannotShow(f"an output of the kind {output['output_type']}")
 
 
-def _merged(outputs: list[Any]) -> list[Any]:
+def _merged(outputs: Iterable[Any]) -> list[Any]:
     """Neighbouring pieces of one stream are one."""
     merged: list[Any] = []
     for output in outputs:
         last = merged[-1] if merged else None
-        streams = last and output["output_type"] == "stream" == last["output_type"]
-        if streams and output.get("name") == last.get("name"):
+        streams = last is not None and output["output_type"] == "stream" == last["output_type"]
+        if last and streams and output.get("name") == last.get("name"):
             merged[-1] = {**last, "text": _joined(last.get("text", "")) + _joined(output.get("text", ""))}
         else:
             merged.append(output)
@@ -135,9 +136,9 @@ def _latex(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
         raise CannotShow("LaTeX that is no formula; give the output an HTML form", "table", "it is LaTeX for a printer")
     alone = text.startswith("$") and text.endswith("$") and "$" not in text.strip("$")
     if alone or (text.startswith(r"\begin") and "$" not in text):
-        return reading.display(text.strip("$").strip())
+        return [*reading.display(text.strip("$").strip())]
     if reading.mending and "$" not in text and re.match(r"\\[a-zA-Z(\[]", text) and "\\(" not in text:
-        return reading.display(text.removeprefix(r"\[").removesuffix(r"\]"))
+        return [*reading.display(text.removeprefix(r"\[").removesuffix(r"\]"))]
     return flow(with_math(text, reading))
 
 

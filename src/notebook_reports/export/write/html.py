@@ -178,7 +178,7 @@ class HtmlWriter:
 
     def inline(self, nodes: list[Inline]) -> str:
         """Inline nodes; a formula keeps the punctuation after it on its line."""
-        parts = []
+        parts: list[str] = []
         for i, node in enumerate(nodes):
             shown = self.node(node)
             before = nodes[i - 1] if i else None
