@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.exact import function
+from loopbook.numerics.rational_numbers import function
 
 
 class DifferenceEquationError(LoopbookError):

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from loopbook.pole_placement.exact import PlacedLoop
+from loopbook.pole_placement.exact_placement import PlacedLoop
 from loopbook.pole_placement.sampled_plant import SampledPlant
 from loopbook.response import step_metrics
 from notebook_reports.ledger.printed_data import PrintedDocument

@@ -8,7 +8,7 @@ import pytest
 from loopbook.documents.double_tank.pole_tables import MEASURES, parameters, performance, printed_only
 from loopbook.documents.open import printed as load
 from loopbook.loop.sampled import SampledLoop
-from loopbook.pole_placement.exact import place_poles
+from loopbook.pole_placement.exact_placement import place_poles
 from loopbook.pole_placement.sampled_plant import sample_two_lags
 from loopbook.process.transfer_function import Process
 from loopbook.response.step_metrics import sampled

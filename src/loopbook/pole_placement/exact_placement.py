@@ -14,7 +14,7 @@ from derivations.algebra.delay_polynomials import Z, coefficients, difference_eq
 from derivations.pole_placement.diophantine import integrators as fixed
 from derivations.pole_placement.diophantine import place
 from loopbook.controllers.rst import Rst, zeros_of
-from loopbook.numerics.exact import decimal, function
+from loopbook.numerics.rational_numbers import decimal, function
 from loopbook.numerics.recursion import recursion, simulate
 from loopbook.pole_placement.sampled_plant import SampledPlant
 
