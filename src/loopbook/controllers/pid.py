@@ -189,7 +189,7 @@ class Pid:
         if start >= stop:
             return
         s = self.settings
-        loop = generated.run(s.anti_windup, s.rate is not None)
+        loop = generated.run_samples(s.anti_windup, s.rate is not None)
         numbers = (*self._gains, self._low, self._high, self._step)
         part = [None] * (stop - start)
         state = (self.I, self.x, self.v, self.u)

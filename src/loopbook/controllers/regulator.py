@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.process.transfer_function import Process, ProcessError, coefficients
+from loopbook.process.transfer_function import Process, ProcessError, checked_coefficients
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Regulator:
 
     def __post_init__(self) -> None:
         for name in ("T", "S", "R"):
-            object.__setattr__(self, name, coefficients(getattr(self, name), name))
+            object.__setattr__(self, name, checked_coefficients(getattr(self, name), name))
         if self.R == (0.0,):
             raise ProcessError("R is zero: a regulator needs a denominator")
 

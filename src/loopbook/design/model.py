@@ -105,7 +105,7 @@ class Model:
             return IntegratingStepData(model.gain, model.delay + sum(model.lags))
         if len(model.lags) == 1:
             return StepData(model.gain, model.lags[0], model.delay)
-        return step.exact(model.process)
+        return step.step_data(model.process)
 
     @cached_property
     def frequency_data(self) -> "FrequencyData":

@@ -50,7 +50,7 @@ LEAST, MOST = 1e-12, 1e12
 """The smallest and the largest number, apart from zero, that a description of a process may hold."""
 
 
-def read_toml(path: str | Path) -> Model:
+def read_model(path: str | Path) -> Model:
     """Read a process from a TOML file, see `TEMPLATE`.
 
     A time constant may be a number or a list of numbers, named time_constants or time_constant. Raises ModelError with

@@ -7,7 +7,7 @@ from loopbook.controllers.pid_forms import FormError, PidStandard
 from loopbook.controllers.settings import PidSettings
 from loopbook.design.program import start_formulas
 from loopbook.design.study import Study
-from loopbook.design.words import Units, as_text
+from loopbook.design.words import Units, as_plain_text
 from notebook_reports.display import Table, number
 
 LEFT = ["left", "left"]
@@ -22,7 +22,7 @@ def recorded(study: Study) -> Table:
     if found is not None:
         u0, y0 = study.rest
         rows = [
-            ["record", f"{as_text(Path(study.data).name)}: {as_text(study.line)}"],
+            ["record", f"{as_plain_text(Path(study.data).name)}: {as_plain_text(study.line)}"],
             ["at rest", f"{units.u} = {units.input(u0)}, {units.y} = {units.output(y0)}"],
             *rows,
             ["noise", f"{units.output(study.conditions.noise, 2)} (standard deviation)"],
@@ -156,7 +156,7 @@ def watched(study: Study) -> Table:
     marks = [""] * len(rows)
     told = [text for text in study.cautions if not text.startswith("Limits")]  # the first table says that
     for text in told[:MOST_CAUTIONS]:
-        rows.append(["mind", as_text(text)])
+        rows.append(["mind", as_plain_text(text)])
         marks.append("note")
     if len(told) > MOST_CAUTIONS:
         rows.append(["mind", f"{len(told) - MOST_CAUTIONS} more on the following pages"])

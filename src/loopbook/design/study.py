@@ -13,7 +13,7 @@ from loopbook.design import evaluation, speed
 from loopbook.design.decision import conditions, curve, decide
 from loopbook.design.limits import Limits, find_limits, rest_input
 from loopbook.design.model import Model, ModelError, from_fit, from_identified
-from loopbook.design.model_file import read_fixed, read_toml, with_fixed
+from loopbook.design.model_file import read_fixed, read_model, with_fixed
 from loopbook.design.placement import placements
 from loopbook.design.results import results
 from loopbook.design.selection import horizon
@@ -99,7 +99,7 @@ class Study:
         measured = FrequencyData(self.K180, self.T180) if self.K180 else None
         if self.identified is not None:
             return from_identified(self.identified, measured)
-        model = read_toml(self.data)
+        model = read_model(self.data)
         if self.known:
             model = with_fixed(model, read_fixed(self.known))
         return replace(model, frequency=measured) if measured else model

@@ -10,7 +10,7 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
-from loopbook.identification.least_squares import Problem, linear
+from loopbook.identification.least_squares import FitProblem, linear
 from loopbook.identification.models import FIRST_ORDER
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps
@@ -72,7 +72,7 @@ def fit_directions(record: Record, steps: Steps, symmetric: Fit) -> tuple[Direct
     large = heights[np.abs(heights) > SMALL * np.abs(heights).max()]
     if steps.course or not ((large > 0).any() and (large < 0).any()):
         return None
-    problem = Problem(record, FIRST_ORDER, steps, symmetric.nuisance, {})
+    problem = FitProblem(record, FIRST_ORDER, steps, symmetric.nuisance, {})
     sign = 1.0 if symmetric.gain > 0 else -1.0
     T, L, scale = symmetric.lags[0], symmetric.delay, float(np.std(problem.y)) or 1.0
 

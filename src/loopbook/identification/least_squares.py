@@ -24,7 +24,7 @@ WELL_POSED = 1e-6  # of the scaled normal equations' determinant
 NUISANCES = ("rest", "drift", "start")
 
 
-class Problem:
+class FitProblem:
     """One structure on one record: residuals for given lags and dead time, the rest eliminated."""
 
     def __init__(self, record: Record, structure: Structure, steps: Steps, nuisance: str, fixed: Mapping[str, float]):
@@ -194,10 +194,10 @@ def fit_structure(
     steps = steps or find_steps(record)
     nuisance = nuisance or ("drift" if drifts(record, steps) else "rest")
     fixed = dict(fixed or {})
-    problem = Problem(record, structure, steps, nuisance, fixed)
+    problem = FitProblem(record, structure, steps, nuisance, fixed)
     lags, delay = problem.solve()
     if 0 < delay < NO_DELAY * record.sampling and "L" not in fixed:
-        problem = Problem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
+        problem = FitProblem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
         lags, delay = problem.solve()
     return _described(problem, lags, delay, fixed)
 
@@ -216,7 +216,7 @@ def drifts(record: Record, steps: Steps) -> bool:
     return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]
 
 
-def _described(problem: Problem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
+def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
     """Everything that is said of a fit, from its optimum."""
     from scipy.special import stdtrit
 

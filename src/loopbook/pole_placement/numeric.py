@@ -36,7 +36,7 @@ def well_damped(zeros: np.ndarray, damping: float) -> np.ndarray:
     return (abs(zeros) < 1) & (zeta >= damping)
 
 
-def place(
+def place_numerically(
     B: Polynomial,
     A: Polynomial,
     P: Polynomial,
@@ -54,7 +54,7 @@ def place(
     Raises PlacementError where A (1 - z^-1)^integrators and B share a factor, by name; where B has no delay or is zero;
     where P or A_o does not start with 1; where P(1) or B(1) is zero. A long P makes R longer, never an error.
 
-    >>> design = place([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
+    >>> design = place_numerically([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
     >>> [float(round(c, 9)) for c in (*design.regulator.R, *design.regulator.S, *design.regulator.T)]
     [1.0, -1.0, 3.0, -1.6, 1.4]
     """

@@ -146,10 +146,10 @@ class Name:
         return bool(set(words) & MANIPULATED) or any(w.startswith(BEGINNINGS) for w in words)
 
 
-def plain(text: str) -> str:
+def plain_letters(text: str) -> str:
     """Lower case without accents: "Füllstand" is "fullstand", "napięcie" is "napiecie".
 
-    >>> plain("Ärvärde"), plain("Wartość"), plain("Größe")
+    >>> plain_letters("Ärvärde"), plain_letters("Wartość"), plain_letters("Größe")
     ('arvarde', 'wartosc', 'grosse')
     """
     text = text.replace("ł", "l").replace("Ł", "L").replace("ß", "ss")
@@ -163,7 +163,7 @@ def words_of(text: str) -> tuple[str, ...]:
     (('pwm', 'controller'), ('oven', 'temperature', '2'), ('q1',), ('time', 'ms'))
     """
     parted = re.sub(r"(?<=[a-zà-öø-ÿ])(?=[A-ZÀ-ÖØ-Þ])", " ", text)
-    return tuple(w for w in re.split(r"[^a-z0-9µ]+", plain(parted)) if w)
+    return tuple(w for w in re.split(r"[^a-z0-9µ]+", plain_letters(parted)) if w)
 
 
 def name_and_unit(head: str) -> tuple[str, str]:

@@ -55,7 +55,7 @@ def lags_of(process: Process) -> tuple[tuple[float, ...], tuple[float, ...]]:
             raise RuleDoesNotApply(
                 f"the half rule takes real lags, the process has the poles {pole:.4g} and its conjugate: make a step "
                 "experiment and take its data",
-                "use loopbook.experiments.step.exact(process)",
+                "use loopbook.experiments.step.step_data(process)",
             )
         else:
             lags += (float(1 / abs(pole) if pole.real < 0 else -1 / abs(pole)),)
@@ -65,6 +65,6 @@ def lags_of(process: Process) -> tuple[tuple[float, ...], tuple[float, ...]]:
         raise RuleDoesNotApply(
             f"the half rule takes zeros in the right half plane; the process has {process.zeros.round(4)}: make a "
             "step experiment and take its data",
-            "use loopbook.experiments.step.exact(process)",
+            "use loopbook.experiments.step.step_data(process)",
         )
     return tuple(sorted(lags, reverse=True)), tuple(float(1 / zero.real) for zero in process.zeros)

@@ -98,7 +98,7 @@ papermill_engines.register("loopbook", _Engine)
 papermill_translators.register("loopbook", _Translator)
 
 
-def run(
+def run_notebook(
     source: Source, name: str, project: Project, parameters: Mapping[str, Any] | None = None, timeout: float = 600
 ) -> Run:
     """Run a notebook from the first cell to the last or to the first that fails.

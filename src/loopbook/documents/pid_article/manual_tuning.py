@@ -18,7 +18,7 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
 from loopbook.process.frequency_response import ultimate
 from loopbook.process.transfer_function import Process
-from loopbook.response.step_metrics import sampled
+from loopbook.response.step_metrics import sampled_metrics
 from loopbook.tuning.by_name import tune
 from notebook_reports.ledger.printed_data import Claim
 
@@ -59,7 +59,7 @@ def behaviour(loop: Loop) -> Behaviour:
         if abs(y[POINTS // 2 :] - final).max() < SETTLED * abs(final):
             break
         horizon *= 2
-    measured = sampled(y, t, final=final, band=0.02 * abs(final) / float(abs(y - final).max()))
+    measured = sampled_metrics(y, t, final=final, band=0.02 * abs(final) / float(abs(y - final).max()))
     return Behaviour(peak_sensitivity(loop), measured.overshoot, measured.settling)
 
 

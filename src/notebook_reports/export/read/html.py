@@ -23,21 +23,21 @@ from notebook_reports.export.model import (
     Coloured,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Grid,
     Heading,
     Inline,
-    Item,
     Link,
-    Listing,
+    ListItem,
     Math,
     Mend,
     Paragraph,
     Picture,
     Quote,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
     plain,
 )
 from notebook_reports.export.read import html_tables, pictures
@@ -158,7 +158,7 @@ class HtmlReader:
                 for br in tag.find_all("br"):
                     br.replace_with("\n")
                 text = visible(tag.get_text().expandtabs(8)).strip("\n")
-                return [Listing(text, "code", str(tag.get("data-language", "")))] if text.strip() else []
+                return [Verbatim(text, "code", str(tag.get("data-language", "")))] if text.strip() else []
             case "ul" | "ol" | "menu" | "dir":
                 return self.bullets(tag, math)
             case "dl":
@@ -166,7 +166,7 @@ class HtmlReader:
             case "blockquote":
                 return [Quote(self.blocks(tag, math))]
             case "hr":
-                return [Rule()]
+                return [ThematicBreak()]
             case "summary":
                 return [Paragraph([Styled("strong", self.line(tag, math))])]
             case "figure":
@@ -191,11 +191,11 @@ class HtmlReader:
         return blocks
 
     def bullets(self, tag: Tag, math: bool) -> list[Block]:
-        items: list[Item] = []
+        items: list[ListItem] = []
         for child in tag.children:
             if isinstance(child, Tag) and child.name == "li" and not self.looks.of(child).hidden:
                 value = _number(child, "value") if tag.name == "ol" else None
-                items.append(Item(self.blocks(child, math), value=None if value is None else int(value)))
+                items.append(ListItem(self.blocks(child, math), value=None if value is None else int(value)))
             elif not isinstance(child, Tag) and not (isinstance(child, NavigableString) and child.strip()):
                 continue
             else:
@@ -203,7 +203,7 @@ class HtmlReader:
                 if blocks and items:
                     items[-1].blocks.extend(blocks)
                 elif blocks:
-                    items.append(Item(blocks))
+                    items.append(ListItem(blocks))
         if not items:
             return []
         style = str(tag.get("type", "1"))
@@ -239,7 +239,7 @@ class HtmlReader:
         if caption:
             caption.extract()
         blocks = self.blocks(tag, math)
-        if words and len(blocks) == 1 and isinstance(blocks[0], Figure | Grid):
+        if words and len(blocks) == 1 and isinstance(blocks[0], FigureBlock | Grid):
             blocks[0].caption = words
             return blocks
         return [*blocks, *([Paragraph(words)] if words else [])]

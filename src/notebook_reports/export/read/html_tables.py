@@ -10,7 +10,7 @@ from notebook_reports.export.errors import CannotShow
 from notebook_reports.export.model import Block, Cell, Display, Inline, Mend, Styled
 from notebook_reports.export.read.css import Looks
 from notebook_reports.export.read.reading import Reading, flow
-from notebook_reports.export.read.tables import MAX_ROWS, align_numbers, place
+from notebook_reports.export.read.tables import MAX_ROWS, align_numbers, grid_of
 
 
 class CellReader(Protocol):
@@ -62,7 +62,7 @@ def read(reader: CellReader, tag: Tag, math: bool) -> list[Block]:
     ]
     if not any(cells):
         return strays
-    grid = place(cells, min(len(head), len(rows)))
+    grid = grid_of(cells, min(len(head), len(rows)))
     align_numbers(grid)
     grid.caption = reader.line(caption, math) if caption and not reader.looks.of(caption).hidden else []
     return [*strays, grid, *after]

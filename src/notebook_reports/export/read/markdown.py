@@ -16,20 +16,20 @@ from notebook_reports.export.model import (
     Code,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Heading,
     Inline,
-    Item,
     Link,
-    Listing,
+    ListItem,
     Math,
     Mend,
     Note,
     Paragraph,
     Quote,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
     plain,
 )
 from notebook_reports.export.read import pictures
@@ -41,7 +41,7 @@ from notebook_reports.export.read.html_names import CODE, STYLES, THROUGH, is_no
 from notebook_reports.export.read.html_tree import tree_of
 from notebook_reports.export.read.pipe_tables import with_whole_tables
 from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
-from notebook_reports.export.read.tables import align_numbers, place
+from notebook_reports.export.read.tables import align_numbers, grid_of
 from notebook_reports.export.read.terminal import visible
 
 PLUGINS = ("strikethrough", "table", "url", "task_lists", "def_list", "footnotes")
@@ -105,7 +105,7 @@ class _Cell:
                 return flow(nodes)
             case "block_code":
                 info = (token.get("attrs") or {}).get("info") or ""
-                return [Listing(visible(token["raw"].expandtabs(4)).rstrip("\n"), "code", info.split(" ")[0])]
+                return [Verbatim(visible(token["raw"].expandtabs(4)).rstrip("\n"), "code", info.split(" ")[0])]
             case "block_quote":
                 return [Quote(self.blocks(token["children"]))]
             case "list":
@@ -113,7 +113,7 @@ class _Cell:
                 start = token["attrs"].get("start", 1)
                 return [Bullets(items, token["attrs"]["ordered"], start, token["tight"])]
             case "thematic_break":
-                return [Rule()]
+                return [ThematicBreak()]
             case "table":
                 return [self.table(token)]
             case "def_list":
@@ -122,8 +122,8 @@ class _Cell:
                 return read_html(token["raw"], self.reading)
         raise CannotShow(f"Markdown of the kind {token['type']}, which a report cannot show")
 
-    def item(self, token: dict[str, Any]) -> Item:
-        return Item(self.blocks(token["children"]), (token.get("attrs") or {}).get("checked"))
+    def item(self, token: dict[str, Any]) -> ListItem:
+        return ListItem(self.blocks(token["children"]), (token.get("attrs") or {}).get("checked"))
 
     def definitions(self, token: dict[str, Any]) -> Definitions:
         items: list[tuple[list[Inline], list[Block]]] = []
@@ -138,7 +138,7 @@ class _Cell:
         head, *body = token["children"]
         rows = [head["children"], *(row["children"] for part in body for row in part["children"])]
         cells = [[self.cell(c) for c in row] for row in rows]
-        grid = place(cells, 1)
+        grid = grid_of(cells, 1)
         align_numbers(grid)
         return grid
 
@@ -273,7 +273,7 @@ def _line_of(block: Block, raw: str) -> list[Inline]:
     match block:
         case Mend():
             return [block]
-        case Figure(picture):
+        case FigureBlock(picture):
             return [picture]
         case Paragraph(children):
             return children

@@ -12,18 +12,18 @@ from notebook_reports.export.model import (
     Anchor,
     Block,
     Display,
-    Figure,
+    FigureBlock,
     Grid,
     Heading,
     Inline,
     Link,
-    Listing,
     Mend,
     Note,
     Picture,
     Report,
     ReportCell,
     Text,
+    Verbatim,
     plain,
     rewrite,
     walk,
@@ -121,7 +121,7 @@ def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
         case "code":
             blocks: list[Block] = []
             if source.strip() and not tags & NO_INPUT:
-                blocks.append(Listing(visible(source.expandtabs(4)).strip("\n"), "input", language))
+                blocks.append(Verbatim(visible(source.expandtabs(4)).strip("\n"), "input", language))
             if not tags & NO_OUTPUT:
                 blocks += read_outputs(cell.get("outputs") or (), reading)
             return blocks
@@ -142,7 +142,7 @@ def _raw(source: str, metadata: Any, reading: Reading) -> list[Block]:
     if mime == "text/latex" and not reading.mending:
         return [*reading.display(source)]
     if mime == "text/plain" or reading.mending:
-        return [Listing(visible(source.expandtabs(4)).strip("\n"))] if source.strip() else []
+        return [Verbatim(visible(source.expandtabs(4)).strip("\n"))] if source.strip() else []
     raise CannotShow(f"a raw cell of the kind {mime}; make it Markdown, or plain text")
 
 
@@ -204,7 +204,7 @@ def number_blocks(cells: list[ReportCell], chapter: str = "") -> None:
     """Number tables and figures that have a caption; in a book with the chapter's number before."""
     counts = {"Table": 0, "Figure": 0}
     for block in walk(cells):
-        if isinstance(block, Grid | Figure) and block.caption:
+        if isinstance(block, Grid | FigureBlock) and block.caption:
             word = "Table" if isinstance(block, Grid) else "Figure"
             counts[word] += 1
             block.number = f"{word} {chapter}{counts[word]}"
@@ -323,10 +323,10 @@ def _beside(folder: Path, path: str) -> bool:
         return False
 
 
-def beside(target: str, name: str, suffix: str) -> str:
+def relative_address(target: str, name: str, suffix: str) -> str:
     """The relative address of another notebook's report.
 
-    >>> beside("double_tank/03_pole_placement#Results", "pid_report/01_terms", ".html")
+    >>> relative_address("double_tank/03_pole_placement#Results", "pid_report/01_terms", ".html")
     '../double_tank/03_pole_placement.html#Results'
     """
     other, _, anchor = target.partition("#")

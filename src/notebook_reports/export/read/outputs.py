@@ -9,7 +9,7 @@ from typing import Any
 from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
 from notebook_reports.export import scripts
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Block, Display, Figure, Listing, Live, Mend
+from notebook_reports.export.model import Block, Display, FigureBlock, Live, Mend, Verbatim
 from notebook_reports.export.read import pictures
 from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.inline_text import read_inline
@@ -122,7 +122,7 @@ def _figure(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     picture = _first_picture(data, metadata, reading.alt(told.get("alt"), "the figure"))
     if picture is None:
         raise CannotShow("a figure without its drawing; run the cell again")
-    return [Figure(picture, read_inline(told["caption"]))]
+    return [FigureBlock(picture, read_inline(told["caption"]))]
 
 
 def _equation(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
@@ -145,7 +145,7 @@ def _latex(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
 def _picture(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     told = next((m["alt"] for m in (metadata, *metadata.values()) if isinstance(m, dict) and m.get("alt")), "")
     picture = _first_picture(data, metadata, reading.alt(told, "a picture"))
-    return [Figure(picture)] if picture else []
+    return [FigureBlock(picture)] if picture else []
 
 
 def _first_picture(data: Bundle, metadata: Bundle, alt: str) -> Any:
@@ -200,13 +200,13 @@ def _listing(text: Any, role: str, reading: Reading) -> list[Block]:
     if not reading.mending:
         _refuse_long(text, MAX_TEXT)
     if len(text) <= MAX_TEXT:
-        return [Listing(text, role)] if text.strip() else []
+        return [Verbatim(text, role)] if text.strip() else []
     head = text[: MAX_TEXT * 3 // 4].rpartition("\n")[0] or text[: MAX_TEXT * 3 // 4]
     tail = text[-MAX_TEXT // 4 :].partition("\n")[2] or text[-MAX_TEXT // 4 :]
     left = text[len(head) : len(text) - len(tail)]
     size = f"{len(left.split()):,} words in {left.count(chr(10)):,} lines"
     told = f"{size} are left out here, of an output of {len(text):,} characters"
-    return [Listing(head, role), Mend("text", told), Listing(tail.strip("\n"), role)]
+    return [Verbatim(head, role), Mend("text", told), Verbatim(tail.strip("\n"), role)]
 
 
 def _refuse_long(text: str, limit: int) -> None:

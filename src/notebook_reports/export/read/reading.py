@@ -7,7 +7,18 @@ from pathlib import Path
 from typing import TypeVar
 
 from notebook_reports.export.errors import CannotShow, Problem
-from notebook_reports.export.model import Block, Break, Display, Figure, Inline, Math, Mend, Paragraph, Picture, Text
+from notebook_reports.export.model import (
+    Block,
+    Break,
+    Display,
+    FigureBlock,
+    Inline,
+    Math,
+    Mend,
+    Paragraph,
+    Picture,
+    Text,
+)
 from notebook_reports.mathematics import MathError, extract_tag
 from notebook_reports.mathematics.macros import Macros
 
@@ -119,7 +130,7 @@ def flow(nodes: Iterable[Inline | Display]) -> list[Block]:
         trim(line)
         solid = [node for node in line if not (isinstance(node, Text) and not node.text.strip())]
         if len(solid) == 1 and isinstance(solid[0], Picture):
-            blocks.append(Figure(solid[0]))
+            blocks.append(FigureBlock(solid[0]))
         elif solid and len(mends := [node for node in solid if isinstance(node, Mend)]) == len(solid):
             blocks.extend(mends)
         elif line:
