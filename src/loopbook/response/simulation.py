@@ -179,9 +179,7 @@ def _run(
     Phi, newer, older = plant.matrices
     history = np.full(steps + whole + 2, u_before)  # what enters the dead time, from (whole + 1) intervals before t = 0
     first = whole + 1
-    newest = (
-        first - whole if plant.tau == 0 and whole else 0
-    )  # of the history at instant k: the input that acts at once
+    newest = int(plant.tau == 0 and whole > 0)  # the place in the history, from k on, of the input that acts at once
     y, u, v = np.empty(steps), np.empty(steps), np.empty(steps)
     states, delayed = np.empty((steps, len(x))), np.empty((steps, 2))
     onwards, from_here = np.column_stack([Phi, older, newer]), np.empty(len(x) + 2)
