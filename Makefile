@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling lock
+.PHONY: all docs difference dist core test whole quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -31,6 +31,9 @@ all: $(READY) ## run all notebooks and write all reports (the default)
 
 test: $(READY) ## run the whole test suite
 	@$(BIN)/python -m pytest -n auto --dist loadfile
+
+whole: $(READY) ## the test suite with every survey whole, of which `make test` runs a seeded share
+	@$(BIN)/python -m pytest -n auto --dist loadfile --whole
 
 quick: $(READY) ## while you work: no kernel, no compiler, nothing that takes long
 	@$(BIN)/python -m pytest -n auto --dist loadfile --quick

@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 SWAPS = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*"}
@@ -253,13 +254,19 @@ def input_mutants(root: Path) -> Iterator[Mutant]:
                         yield Mutant("input", where, a, a + len(old_json), new_json, what, (id,), (id,))
 
 
-def importers(root: Path, module: str, folder: str) -> list[str]:
-    """Files below `folder` that need `module`, directly or through first-party modules, the nearest first."""
+def needs_of(root: Path) -> dict[str, frozenset[str]]:
+    """What each module of the sources imports."""
     source = root / "src"
-    needs: dict[str, set[str]] = {}
+    found = {}
     for path in source.rglob("*.py"):
         name = ".".join(path.relative_to(source).with_suffix("").parts).removesuffix(".__init__")
-        needs[name] = _imports(path.read_text(encoding="utf-8"))
+        found[name] = _imports(path.read_text(encoding="utf-8"))
+    return found
+
+
+def importers(root: Path, module: str, folder: str) -> list[str]:
+    """Files below `folder` that need `module`, directly or through first-party modules, the nearest first."""
+    needs = needs_of(root)
     level, distance = {module}, {module: 0}
     while level:
         level = {n for n, used in needs.items() if n not in distance and used & level}
@@ -276,15 +283,16 @@ def importers(root: Path, module: str, folder: str) -> list[str]:
     return [name for _, name in sorted(ranked)]
 
 
-def _imports(text: str) -> set[str]:
+@cache
+def _imports(text: str) -> frozenset[str]:
     found: set[str] = set()
     try:
         tree = ast.parse(text)
     except SyntaxError:
-        return found
+        return frozenset()
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             found |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    return found
+    return frozenset(found)

@@ -18,7 +18,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings, SettingError
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 
 AUTO, MANUAL = "auto", "manual"
 
@@ -41,7 +41,7 @@ def _numbers(name: str, signal: Any) -> list[int | float | Fraction]:
     if not {type(value) for value in values} <= {int, float, Fraction}:
         if np.ndim(signal) != 1:
             raise ValueError(f"{name} has {np.ndim(signal)} dimensions: a row of numbers is expected")
-        values = [plain(value) for value in values]
+        values = [plain_number(value) for value in values]
     return values
 
 
@@ -68,7 +68,7 @@ class Pid:
             raise SettingError("on_bad", on_bad, "raise or hold")
         self.on_bad = on_bad
         self.mode = AUTO
-        self.I, self.x = plain(I), 0 if x is None else plain(x)
+        self.I, self.x = plain_number(I), 0 if x is None else plain_number(x)
         self._started = x is not None
         self.u = self.v = None
         self._y_sp = self._y = None
@@ -89,7 +89,7 @@ class Pid:
     def step(self, y: Any, y_sp: Any) -> Any:
         """One sample: the output u for the measurement and the set-point of this sample."""
         if type(y) is not float or type(y_sp) is not float:
-            y, y_sp = plain(y), plain(y_sp)
+            y, y_sp = plain_number(y), plain_number(y_sp)
         if y - y != y_sp - y_sp:  # 0 for numbers; NaN, which differs from all, for NaN and infinities
             return self._bad(y, y_sp)
         self._y_sp, self._y = y_sp, y
@@ -183,7 +183,7 @@ class Pid:
             raise ValueError("run() plays automatic samples; the controller is in manual: call auto() first")
         of_array = isinstance(y, np.ndarray)
         y = _numbers("y", y)
-        y_sp = [plain(y_sp)] * len(y) if np.ndim(y_sp) == 0 else _numbers("y_sp", y_sp)
+        y_sp = [plain_number(y_sp)] * len(y) if np.ndim(y_sp) == 0 else _numbers("y_sp", y_sp)
         if len(y_sp) != len(y):
             raise ValueError(f"{len(y_sp)} set-points for {len(y)} measurements: as many of both are needed")
         finite = np.isfinite(np.asarray(y, float)) & np.isfinite(np.asarray(y_sp, float))
@@ -207,7 +207,7 @@ class Pid:
         if start >= stop:
             return
         s = self.settings
-        loop = generated.run(s.anti_windup, s.rate is not None)
+        loop = generated.run_samples(s.anti_windup, s.rate is not None)
         numbers = (*self._gains, self._low, self._high, self._step)
         part = [None] * (stop - start)
         state = (self.I, self.x, self.v, self.u)

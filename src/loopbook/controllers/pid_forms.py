@@ -11,26 +11,26 @@ weighs the reference in the proportional part. Ti = inf means no integral action
 
 import math
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from derivations.errors import LoopbookError
 from loopbook.controllers.regulator import Regulator
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 
 
 class FormError(LoopbookError):
     """Parameters that no controller of this form can have, or a conversion that does not exist."""
 
 
-def _python_numbers(form: "_Form") -> None:
+def _python_numbers(form: "PidParallel | PidStandard | PidSeries") -> None:
     """The parameters as Python's own numbers, whatever they came as; None stays."""
     for part in fields(form):
         value = getattr(form, part.name)
         if value is not None or part.default is not None:
             try:
-                object.__setattr__(form, part.name, plain(value))
+                object.__setattr__(form, part.name, plain_number(value))
             except TypeError as error:
                 raise FormError(f"{part.name}: {error}") from None
 
@@ -44,6 +44,10 @@ def _finite(**named: float) -> None:
 def _time(name: str, value: float, infinite: bool = False) -> None:
     if math.isnan(value) or value < 0 or (math.isinf(value) and not infinite):
         raise FormError(f"{name} = {value!r} s must be a time, zero or longer{' or inf' if infinite else ''}")
+
+
+LEFT_OUT = cast(float, None)
+"""For N or Tf: it follows from the other one, and is a number as soon as the form is made."""
 
 
 class _Form:
@@ -148,8 +152,8 @@ class PidStandard(_Form):
     Td: float = 0.0
     b: float = 1.0
     c: float = 0.0
-    N: float | None = None
-    Tf: float | None = None
+    N: float = LEFT_OUT
+    Tf: float = LEFT_OUT
 
     def __post_init__(self) -> None:
         _python_numbers(self)
@@ -218,8 +222,8 @@ class PidSeries(_Form):
     K: float
     Ti: float = math.inf
     Td: float = 0.0
-    N: float | None = None
-    Tf: float | None = None
+    N: float = LEFT_OUT
+    Tf: float = LEFT_OUT
 
     def __post_init__(self) -> None:
         _python_numbers(self)

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.numerics.real_numbers import plain
-from loopbook.process.transfer_function import Process, ProcessError, coefficients
+from loopbook.numerics.real_numbers import plain_number
+from loopbook.process.transfer_function import Process, ProcessError, checked_coefficients
 
 ON_AXIS = 1e-10
 
@@ -36,7 +36,7 @@ class Regulator:
 
     def __post_init__(self) -> None:
         for name in ("T", "S", "R"):
-            object.__setattr__(self, name, coefficients(getattr(self, name), name))
+            object.__setattr__(self, name, checked_coefficients(getattr(self, name), name))
         if self.R == (0.0,):
             raise ProcessError("R is zero: a regulator needs a denominator")
 
@@ -59,7 +59,7 @@ class Regulator:
         if hasattr(regulator, "num") and hasattr(regulator, "ninputs"):
             return cls.of(Process.from_control(regulator))
         try:
-            gain = float(plain(regulator))
+            gain = float(plain_number(regulator))
         except TypeError:
             kind = type(regulator).__name__
             raise ProcessError(

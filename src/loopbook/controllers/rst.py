@@ -20,7 +20,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from derivations.pole_placement.rst_law import law
 from loopbook.numerics import polynomial_text
-from loopbook.numerics.real_numbers import plain, positive
+from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.numerics.recursion import recursion
 from loopbook.numerics.units import CANCELLED
 
@@ -34,7 +34,7 @@ class PlacementError(LoopbookError):
 
 def _row(p: Polynomial, name: str) -> np.ndarray:
     try:
-        row = np.array([float(plain(c)) for c in np.atleast_1d(np.asarray(p, dtype=object))])
+        row = np.array([float(plain_number(c)) for c in np.atleast_1d(np.asarray(p, dtype=object))])
     except (TypeError, OverflowError):
         row = np.zeros(0)
     if row.ndim != 1 or not row.size or not np.isfinite(row).all():

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 
 ANTI_WINDUP = {
     "tracking": "I follows the limited output with the time constant Tt (pid-report, eq. 4.5)",
@@ -31,7 +31,7 @@ class SettingError(LoopbookError):
 def _number(name: str, value: Any, infinite: bool = False) -> int | float | Fraction:
     """The setting as a Python number, exact where it was. Raises SettingError for anything else."""
     try:
-        number = plain(value)
+        number = plain_number(value)
     except TypeError:
         number = math.nan
     if number != number or (abs(number) == math.inf and not infinite):

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 from loopbook.refusal import Refusal
 
 
@@ -25,7 +25,7 @@ def _check(data: object, where: str, sizes: tuple[str, ...] = (), times: tuple[s
 
 def _number(where: str, name: str, value: Any, positive: bool = True) -> float:
     try:
-        number = plain(value)
+        number = plain_number(value)
     except TypeError as error:
         raise DataError(f"{where}: {name}: {error}") from None
     number = float(number) if isinstance(number, Fraction) else number

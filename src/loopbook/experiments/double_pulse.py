@@ -49,7 +49,7 @@ def solve(
     return K_p, T, L[0], L[1]
 
 
-def run(plant: Plant, width: float, amplitude: float = 1.0, horizon: float | None = None) -> Record:
+def apply_double_pulse(plant: Plant, width: float, amplitude: float = 1.0, horizon: float | None = None) -> Record:
     """Make the experiment: +amplitude for `width` seconds, -amplitude for as long, then zero."""
     horizon = horizon or 2 * width + settling_horizon(plant.process, 5.0)
     start = horizon / 19

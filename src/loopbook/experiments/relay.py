@@ -40,7 +40,7 @@ def gain(y_a: float, u_a: float) -> float:
     return float(_process_gain()(y_a, u_a))
 
 
-def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: float | None = None) -> Record:
+def apply_relay(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: float | None = None) -> Record:
     """Close the loop with a relay of levels +-amplitude that switches where y leaves +-hysteresis.
 
     The output between switchings is exact and each switching instant is found to rounding; with noise the relay sees

@@ -22,12 +22,12 @@ KNOWN = 1e-12  # of the time to 63 %: a tangent that starts so near the step sta
 STILL = 0.02  # of the change: what the output may move over the last fifth of a record that has settled
 
 
-def exact(process: Process) -> StepData:
+def step_data(process: Process) -> StepData:
     """What a perfect step experiment tells: tangent and 63 % of the exact response, no samples.
 
     Raises ExperimentError for an integrating or unstable process.
 
-    >>> found = exact(Process.fopdt(2.0, 3.0, 1.0))
+    >>> found = step_data(Process.fopdt(2.0, 3.0, 1.0))
     >>> found.Kp, round(found.T, 9), round(found.L, 9)
     (2.0, 3.0, 1.0)
     """
@@ -43,7 +43,7 @@ def exact(process: Process) -> StepData:
     return StepData(gain, max(process.delay + T63 - L, 0.0), L)
 
 
-def run(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> Record:
+def apply_step(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> Record:
     """Make the experiment: a step of the input at a twentieth of the record."""
     horizon = horizon or settling_horizon(plant.process)
     return plant.play([(horizon / 19, amplitude)], horizon * 20 / 19)

@@ -22,13 +22,13 @@ from loopbook.controllers.regulator import Regulator
 from loopbook.loop.margins import Margins, margins
 from loopbook.loop.stability import BorderError, decay_rate, is_stable, unstable_roots
 from loopbook.loop.transfer import LoopError, LoopTransfer
-from loopbook.numerics.real_numbers import plain, real
+from loopbook.numerics.real_numbers import plain_number, real
 from loopbook.numerics.signals import HorizonError, Signal
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import DelayedSum, Process
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
-from loopbook.response.step_metrics import exact
+from loopbook.response.step_metrics import exact_metrics
 
 SETTLED = 1e-9
 AT_REST = 1e-10
@@ -172,7 +172,7 @@ class Loop:
         has settled, which needs a stable loop. An unstable loop can be simulated over a given horizon.
         """
         if horizon is not None:
-            until = float(plain(horizon))
+            until = float(plain_number(horizon))
             return StepResponse(self, source, until, *self._answer(source, until))
         until = self.settling_horizon()
         final = self.final_values(source)
@@ -222,7 +222,7 @@ class StepResponse:
 
         Raises LoopError for an unstable loop, NotSettled for a horizon that is too short.
         """
-        return exact(self.y, self.final[0], min(self.horizon, self.y.end))
+        return exact_metrics(self.y, self.final[0], min(self.horizon, self.y.end))
 
     @cached_property
     def error(self) -> Signal:

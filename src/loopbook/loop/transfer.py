@@ -27,7 +27,7 @@ from loopbook.numerics.imaginary_axis import (
     turned,
     turned_on_axis,
 )
-from loopbook.process.transfer_function import ProcessError, coefficients
+from loopbook.process.transfer_function import ProcessError, checked_coefficients
 
 TOUCHES = 1e-7
 BESIDE = 1e-13
@@ -52,7 +52,7 @@ class LoopTransfer:
     hidden: int = field(init=False, default=0, repr=False)
 
     def __post_init__(self) -> None:
-        num, den = coefficients(self.num, "num"), coefficients(self.den, "den")
+        num, den = checked_coefficients(self.num, "num"), checked_coefficients(self.den, "den")
         if den == (0.0,):
             raise ProcessError("den is zero: a transfer function needs a denominator")
         hidden = 0

@@ -37,7 +37,7 @@ def well_damped(zeros: np.ndarray, damping: float) -> np.ndarray:
     return (abs(zeros) < 1) & (zeta >= damping)
 
 
-def place(
+def place_numerically(
     B: Polynomial,
     A: Polynomial,
     P: Polynomial,
@@ -56,7 +56,7 @@ def place(
     where P or A_o does not start with 1; where P(1) or B(1) is zero; where h is not positive. A long P makes R longer,
     never an error.
 
-    >>> design = place([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
+    >>> design = place_numerically([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
     >>> [float(round(c, 9)) for c in (*design.regulator.R, *design.regulator.S, *design.regulator.T)]
     [1.0, -1.0, 3.0, -1.6, 1.4]
     """

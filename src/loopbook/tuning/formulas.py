@@ -11,7 +11,7 @@ from derivations.tuning.letters import QUANTITIES, lam
 from derivations.tuning.rule import Caution, Rule
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
@@ -64,7 +64,7 @@ def compute(rule: Rule, data: ProcessData, extrapolate: bool = False, **options:
 
 def _number(name: str, value: Any) -> float:
     try:
-        return float(plain(value))
+        return float(plain_number(value))
     except TypeError as error:
         raise RuleDoesNotApply(f"{name}: {error}") from None
 

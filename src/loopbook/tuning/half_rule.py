@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.result import RuleDoesNotApply
 
@@ -42,7 +42,7 @@ def half_rule(
 
 def _time(value: Any) -> float:
     try:
-        number = plain(value)
+        number = plain_number(value)
     except TypeError as error:
         raise RuleDoesNotApply(f"half rule: {error}") from None
     if not number >= 0:
@@ -71,7 +71,7 @@ def lags_of(process: Process) -> tuple[tuple[float, ...], tuple[float, ...]]:
             raise RuleDoesNotApply(
                 f"the half rule takes real lags, the process has the poles {pole:.4g} and its conjugate: make a step "
                 "experiment and take its data",
-                "use loopbook.experiments.step.exact(process)",
+                "use loopbook.experiments.step.step_data(process)",
             )
         else:
             lags += (float(1 / abs(pole) if pole.real < 0 else -1 / abs(pole)),)
@@ -81,6 +81,6 @@ def lags_of(process: Process) -> tuple[tuple[float, ...], tuple[float, ...]]:
         raise RuleDoesNotApply(
             f"the half rule takes zeros in the right half plane; the process has {process.zeros.round(4)}: make a "
             "step experiment and take its data",
-            "use loopbook.experiments.step.exact(process)",
+            "use loopbook.experiments.step.step_data(process)",
         )
     return tuple(sorted(lags, reverse=True)), tuple(float(1 / zero.real) for zero in process.zeros)

@@ -5,7 +5,7 @@ clearance |C + L(i w)| - R on grids that see every approach to the circle.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
@@ -54,7 +54,7 @@ def smooth_branch(process: Process, w: np.ndarray, M: float = M_DEFAULT) -> np.n
     return np.array([k, ki_of_pi + w**2 * kd, kd])
 
 
-def clearance(process: Process, gains: Sequence[Any], w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
+def clearance(process: Process, gains: Iterable[Any], w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
     """|C + L(i w)| - R: negative inside the circle. gains: (k, ki, kd), each a number or broadcastable against w."""
     k, ki, kd = gains
     C, R = circle(M)

@@ -146,7 +146,7 @@ class Display:
 
 
 @dataclass
-class Listing:
+class Verbatim:
     """Preformatted text. role: input, code, output, stderr or error. language: a Pygments name, "" for plain text."""
 
     text: str
@@ -155,7 +155,7 @@ class Listing:
 
 
 @dataclass
-class Item:
+class ListItem:
     """checked: None where the item is no task. value: the number of the item where it is not one more than the last."""
 
     blocks: list["Block"]
@@ -167,7 +167,7 @@ class Item:
 class Bullets:
     """style: of the numbers, one of 1 a A i I."""
 
-    items: list[Item]
+    items: list[ListItem]
     ordered: bool = False
     start: int = 1
     tight: bool = True
@@ -202,7 +202,7 @@ class Alert:
 
 
 @dataclass
-class Rule:
+class ThematicBreak:
     """A thematic break."""
 
 
@@ -236,7 +236,7 @@ class Grid:
 
 
 @dataclass
-class Figure:
+class FigureBlock:
     """A picture on its own lines. number: "Figure 2", or "" without a caption."""
 
     picture: Picture
@@ -257,7 +257,19 @@ class Live:
 
 
 Block = (
-    Heading | Paragraph | Display | Listing | Bullets | Definitions | Quote | Alert | Rule | Grid | Figure | Mend | Live
+    Heading
+    | Paragraph
+    | Display
+    | Verbatim
+    | Bullets
+    | Definitions
+    | Quote
+    | Alert
+    | ThematicBreak
+    | Grid
+    | FigureBlock
+    | Mend
+    | Live
 )
 
 
@@ -310,7 +322,7 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Alert() | Item() | Note():
+        case ReportCell() | Quote() | Alert() | ListItem() | Note():
             return node.blocks
         case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children
@@ -320,7 +332,7 @@ def children(node: Any) -> list[Any]:
             return [part for term, blocks in node.items for part in (*term, *blocks)]
         case Grid():
             return [*node.caption, *node.cells, *(part for note in node.notes for part in note)]
-        case Figure():
+        case FigureBlock():
             return [node.picture, *node.caption]
         case Live():
             return node.instead
@@ -358,7 +370,7 @@ def rewrite(node: Any, change: Callable[[Any], list[Any] | None]) -> None:
             changed(node.cells)
             for note in node.notes:
                 changed(note)
-        case Figure():
+        case FigureBlock():
             changed(node.caption)
         case _:
             found = children(node)

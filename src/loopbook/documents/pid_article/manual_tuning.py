@@ -12,13 +12,13 @@ from functools import cache
 
 import numpy as np
 
-from loopbook.controllers.pid_forms import PidStandard
+from loopbook.controllers.pid_forms import LEFT_OUT, PidStandard
 from loopbook.documents.open import printed
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
 from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
-from loopbook.response.step_metrics import sampled
+from loopbook.response.step_metrics import sampled_metrics
 from loopbook.tuning.by_name import tune
 from notebook_reports.ledger.printed_data import Claim
 
@@ -59,7 +59,7 @@ def behaviour(loop: Loop) -> Behaviour:
         if abs(y[POINTS // 2 :] - final).max() < SETTLED * abs(final):
             break
         horizon *= 2
-    measured = sampled(y, t, final=final, band=0.02 * abs(final) / float(abs(y - final).max()))
+    measured = sampled_metrics(y, t, final=final, band=0.02 * abs(final) / float(abs(y - final).max()))
     return Behaviour(peak_sensitivity(loop), measured.overshoot, measured.settling)
 
 
@@ -106,7 +106,7 @@ def changed(pid: PidStandard, setting: str, factor: float) -> PidStandard:
         raise ValueError(
             f"setting = {setting!r}, factor = {factor}: one of {', '.join(SETTINGS)} and a positive factor"
         )
-    return replace(pid, **{setting: factor * getattr(pid, setting)}, N=None)
+    return replace(pid, **{setting: factor * getattr(pid, setting)}, N=LEFT_OUT)
 
 
 def cells(loop: Loop, factor: float) -> dict[tuple[str, str], bool]:

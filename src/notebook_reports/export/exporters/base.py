@@ -11,7 +11,7 @@ from traitlets import Bool, Unicode, default
 
 from notebook_reports.export.errors import ExportError, Problem
 from notebook_reports.export.formulas import as_mathml, as_text, as_typst
-from notebook_reports.export.mends import MODES, lines
+from notebook_reports.export.mends import MODES, mend_lines
 from notebook_reports.export.model import Display, Math, Report, walk
 from notebook_reports.export.read.notebook import read
 from notebook_reports.export.write.typst_engine import TypstFailed, cell_finder, explain
@@ -38,8 +38,6 @@ class ReportExporter(TemplateExporter):
         "mend",
         help="What cannot be shown: a numbered box in its place and a list at the end (mend), or an error (strict).",
     ).tag(config=True)
-
-    export_from_notebook = None
 
     @default("extra_template_basedirs")
     def _own_templates(self) -> list[str]:
@@ -73,7 +71,7 @@ class ReportExporter(TemplateExporter):
         """Say what was mended, on the standard error of the nbconvert command, and in the resources."""
         resources["loopbook_mends"] = report.mends
         resources["loopbook_report"] = report
-        for line in lines(report):
+        for line in mend_lines(report):
             self.log.warning(line)
 
     def from_filename(self, filename: str, resources: Any = None, **kw: Any) -> tuple[Any, Any]:

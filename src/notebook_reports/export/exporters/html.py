@@ -12,7 +12,7 @@ from traitlets import default
 
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, ReportExporter, problems
-from notebook_reports.export.mends import number
+from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import Heading, Report, words_only
 from notebook_reports.export.write.html import HtmlWriter
 from notebook_reports.export.write.mathematics_font import font_face
@@ -69,7 +69,7 @@ class HtmlExporter(ReportExporter):
         report = self.report(nb, resources)
         if self.mended(resources):
             mend_formulas(report, "mathml")
-            number(report)
+            number_mends(report)
             self.tell(report, resources)
         text = self.render(report)
         resources["output_extension"] = self.file_extension

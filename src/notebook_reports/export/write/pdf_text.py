@@ -112,8 +112,8 @@ class PdfText:
                 case "text":
                     yield from self._text(found["text"], resources["Font"], matrix, page, drawn)
                 case "drawing" if depth < 12:
-                    number = resources["XObject"].get(found["drawing"].decode())
-                    body = self._objects.get(number or -1, b"")
+                    number = resources["XObject"].get(found["drawing"].decode(), -1)
+                    body = self._objects.get(number, b"")
                     if b"/Subtype/Form" in body:
                         own = re.search(rb"/Matrix\s*\[([^\]]*)\]", body)
                         inner = _times(_matrix(own[1]), matrix) if own else matrix

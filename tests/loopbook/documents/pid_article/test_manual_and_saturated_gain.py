@@ -97,7 +97,7 @@ def test_high_saturated_gain_oscillates_like_a_relay():
     from loopbook.experiments.plant import Plant
 
     cycle = limit_cycle(THIRD, 1000, 1.0, 2 * np.pi)
-    data = relay.estimate(relay.run(Plant(THIRD))).data
+    data = relay.estimate(relay.apply_relay(Plant(THIRD))).data
     assert cycle.at_limit > 0.99
     # the sampled loop switches up to one interval, a 400th of the period, late
     assert cycle.period == pytest.approx(data.T180, rel=0.01)
