@@ -35,9 +35,8 @@ def predict(
 ) -> Prediction:
     """Predict `swing` Td ahead from samples every h: the signal plus the D part of a controller with K = 1.
 
-    Tf: time constant of the derivative's filter [s]; it lets low frequencies pass, or what they leave of the signal with
-    high_pass. noise: standard deviation added to each sample.
-    The noise is the same on every call.
+    Tf: time constant of the derivative's filter [s]; it lets low frequencies pass, or, with high_pass, the others.
+    noise: standard deviation added to each sample, the same noise on every call.
     """
     t = np.arange(round(end / h) + 1) * h
     seen = swing(t) + noise * np.random.default_rng(7).standard_normal(len(t))

@@ -109,9 +109,7 @@ def derivative_filter(b: Batch) -> Statements:
         "that of most": worse > 0.5,
         "the adjusted data raise it again for most": mended > 0.5,
     }
-    evidence = (
-        f"with the filter the robustness 1/M changes so on {percent(worse)} of the processes; adjusted data mend it on "
-    )
+    evidence = f"with the filter 1/M changes so on {percent(worse)} of the processes; adjusted data mend it on "
     return {
         "filter-costs-robustness": (parts, f"{evidence}{percent(mended)}."),
         "filter-costs-ki": (
