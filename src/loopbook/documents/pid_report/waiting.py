@@ -20,7 +20,7 @@ class Clock:
 
 
 @dataclass(frozen=True)
-class Sampled:
+class Passes:
     """The instants [s] at which the measurement was read, and the slope that D finds in a ramp of one unit a second."""
 
     instants: tuple[float, ...]
@@ -32,18 +32,17 @@ class Sampled:
         return self.instants[-1] - self.instants[-2]
 
 
-def run(settings: PidSettings, wait: float, spent: float, passes: int = 20) -> Sampled:
+def run(settings: PidSettings, wait: float, spent: float, passes: int = 20) -> Passes:
     """Passes of the program of figure 4.9 on the measurement y = t: each takes `spent` seconds, then waits `wait`.
 
     settings: with the h that the gains are computed for, Td > 0, no filter and no limits in reach. The slope is what
     the D part of the last pass says it is, -D/(K Td).
     """
-    clock, program, instants = Clock(), ProgramController("4.9", settings), []
+    clock, program, instants, D = Clock(), ProgramController("4.9", settings), [], 0.0
     for _ in range(passes):
         instants.append(clock.now)
         past = program.states["I"]
-        program.step(clock.now, 0.0)
+        D = program.step(clock.now, 0.0) - past + settings.K * clock.now
         clock.take(spent)
         clock.take(wait)
-    D = program.v - past + settings.K * instants[-1]
-    return Sampled(tuple(instants), -D / (settings.K * settings.Td))
+    return Passes(tuple(instants), -D / (settings.K * settings.Td))
