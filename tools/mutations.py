@@ -163,7 +163,10 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
 
 
 def _sites(tree: ast.Module) -> Iterator[tuple[ast.AST, str, str]]:
-    """(node, function, kind) of everything worth altering inside functions: numbers, signs, operators."""
+    """(node, function, kind) of everything worth altering: numbers, signs, operators; a module's constants too."""
+    for node in (n for top in tree.body if not isinstance(top, ast.FunctionDef | ast.ClassDef) for n in ast.walk(top)):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Rational":
+            yield node.args[0], "constants", "number"
     for function in (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)):
         skipped: set[ast.AST] = set()
         for node in ast.walk(function):

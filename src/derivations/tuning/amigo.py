@@ -19,11 +19,26 @@ from derivations.tuning.letters import K_180, L_1, T_1, T_2, T_180, K_p, L, T, T
 from derivations.tuning.rule import Caution, Rule
 from derivations.tuning.takes import Takes
 
-Constants = tuple[Expr, ...]
 SOURCE = "Åström and Hägglund, Advanced PID control (2006); pid-report, section {}"
 AIM = "load, robustness M = 1.4"
 RELATIVE_DEAD_TIME = L / (L + T)
 
+Constants = tuple[Expr, ...]
+PI_STEP: dict[str, Constants] = {
+    "K": (Rational(15, 100), Rational(35, 100)),
+    "Ti": (Rational(35, 100), Rational(13), Rational(12), Rational(7)),
+}
+PID_STEP: dict[str, Constants] = {
+    "K": (Rational(20, 100), Rational(45, 100)),
+    "Ti": (Rational(40, 100), Rational(80, 100), Rational(10, 100)),
+    "Td": (Rational(50, 100), Rational(30, 100)),
+}
+PI_FREQUENCY: dict[str, Constants] = {"K": (Rational(16, 100),), "Ti": (Rational(450, 100),)}
+PID_FREQUENCY: dict[str, Constants] = {
+    "K": (Rational(30, 100), Rational(10, 100)),
+    "Ti": (Rational(60, 100), Rational(2)),
+    "Td": (Rational(15, 100), Rational(95, 100)),
+}
 SECOND_ORDER = {  # section 5.3.7: the weights of 1, T1/L1, T2/L1 and T1 T2/L1^2 in K, ki and kd
     "alpha": (Rational(19, 100), Rational(37, 100), Rational(18, 100), Rational(2, 100)),
     "beta": (Rational(48, 100), Rational(3, 100), Rational(-7, 10000), Rational(12, 10000)),
@@ -83,10 +98,7 @@ def _lag_dominated(least: Rational) -> tuple[Caution, ...]:
 
 
 @cache
-def pi_step(
-    K: Constants = (Rational(15, 100), Rational(35, 100)),
-    Ti: Constants = (Rational(35, 100), Rational(13), Rational(12), Rational(7)),
-) -> Rule:
+def pi_step(K: Constants = PI_STEP["K"], Ti: Constants = PI_STEP["Ti"]) -> Rule:
     """PI from a step response, section 5.3.3. The constants are those in print; others make the same formulas.
 
     >>> pi_step().K.subs({K_p: 1, T: 1, L: 1})
@@ -103,11 +115,7 @@ def pi_step(
 
 
 @cache
-def pid_step(
-    K: Constants = (Rational(20, 100), Rational(45, 100)),
-    Ti: Constants = (Rational(40, 100), Rational(80, 100), Rational(10, 100)),
-    Td: Constants = (Rational(50, 100), Rational(30, 100)),
-) -> Rule:
+def pid_step(K: Constants = PID_STEP["K"], Ti: Constants = PID_STEP["Ti"], Td: Constants = PID_STEP["Td"]) -> Rule:
     """PID from a step response, section 5.3.4. The constants are those in print; others make the same formulas.
 
     >>> pid_step().K.subs({K_p: 1, T: 1, L: 1})
@@ -131,7 +139,7 @@ def pid_step(
 
 
 @cache
-def pi_frequency(K: Constants = (Rational(16, 100),), Ti: Constants = (Rational(450, 100),)) -> Rule:
+def pi_frequency(K: Constants = PI_FREQUENCY["K"], Ti: Constants = PI_FREQUENCY["Ti"]) -> Rule:
     """PI from one point of the frequency response, section 5.3.5; kappa = K_180/K_p, constants as in print.
 
     >>> pi_frequency().Ti
@@ -150,9 +158,7 @@ def pi_frequency(K: Constants = (Rational(16, 100),), Ti: Constants = (Rational(
 
 @cache
 def pid_frequency(
-    K: Constants = (Rational(30, 100), Rational(10, 100)),
-    Ti: Constants = (Rational(60, 100), Rational(2)),
-    Td: Constants = (Rational(15, 100), Rational(95, 100)),
+    K: Constants = PID_FREQUENCY["K"], Ti: Constants = PID_FREQUENCY["Ti"], Td: Constants = PID_FREQUENCY["Td"]
 ) -> Rule:
     """PID from one point of the frequency response, section 5.3.6; kappa = K_180/K_p, constants as in print.
 
