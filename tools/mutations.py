@@ -22,6 +22,9 @@ OPPOSITES = (
         ("largest", "smallest"),
     ),
     *(("high", "low"), ("long", "short"), ("most", "least"), ("over", "under"), ("positive", "negative"), (">", "<")),
+    *(("fast", "slow"), ("large", "small"), ("much", "little"), ("raise", "lower"), ("maximum", "minimum")),
+    *(("amplifies", "attenuates"), ("shortens", "lengthens"), ("helps", "harms"), ("improve", "harm")),
+    *(("nearer", "farther"), ("two", "three"), ("half", "twice"), ("tenth", "ninth")),
 )
 WORDS = {a: b for pair in OPPOSITES for a, b in (pair, pair[::-1])}
 
@@ -125,6 +128,8 @@ def claim_mutants(root: Path) -> Iterator[Mutant]:
     """Each number, direction word and comparison of each statement: in its fields, in its formulas, in its words."""
     rows = {(r["document"], r["id"]): r for r in _rows(root, "claims.csv")}
     for document, path, text, id, start, end in _entries(root, "claim"):
+        if (document, id) not in rows:
+            continue  # not in the ledger yet: build first
         entry, row = text[start:end], rows[document, id]
         for value in re.finditer(r'(?<![\w-])(\w+)\s*=\s*"((?:[^"\\]|\\.)*)"', entry):
             key = value[1]
@@ -149,7 +154,7 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
     if text in ("up", "down"):
         yield 0, len(text), "down" if text == "up" else "up"
         return
-    names = r"(?:[Ff]igures?|[Ss]ections?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+    names = r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
     skipped = [
         m.span() for m in re.finditer(rf"{names}|\\[a-zA-Z]+|\{{\w+[^}}]*\}}|_\{{[^}}]*\}}|_\w+|\^\{{?-?\d+\}}?", text)
     ]
