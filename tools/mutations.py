@@ -23,6 +23,9 @@ OPPOSITES = (
         ("largest", "smallest"),
     ),
     *(("high", "low"), ("long", "short"), ("most", "least"), ("over", "under"), ("positive", "negative"), (">", "<")),
+    *(("fast", "slow"), ("large", "small"), ("much", "little"), ("raise", "lower"), ("maximum", "minimum")),
+    *(("amplifies", "attenuates"), ("shortens", "lengthens"), ("helps", "harms"), ("improve", "harm")),
+    *(("nearer", "farther"), ("two", "three"), ("half", "twice"), ("tenth", "ninth")),
 )
 WORDS = {a: b for pair in OPPOSITES for a, b in (pair, pair[::-1])}
 
@@ -126,6 +129,8 @@ def claim_mutants(root: Path) -> Iterator[Mutant]:
     """Each number, direction word and comparison of each statement: in its fields, in its formulas, in its words."""
     rows = {(r["document"], r["id"]): r for r in _rows(root, "claims.csv")}
     for document, path, text, id, start, end in _entries(root, "claim"):
+        if (document, id) not in rows:
+            continue  # not in the ledger yet: build first
         entry, row = text[start:end], rows[document, id]
         for value in re.finditer(r'(?<![\w-])(\w+)\s*=\s*"((?:[^"\\]|\\.)*)"', entry):
             key = value[1]
@@ -150,7 +155,9 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
     if text in ("up", "down"):
         yield 0, len(text), "down" if text == "up" else "up"
         return
-    names = r"(?:[Ff]igures?|[Ss]ections?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+    names = (
+        r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+    )
     skipped = [
         m.span() for m in re.finditer(rf"{names}|\\[a-zA-Z]+|\{{\w+[^}}]*\}}|_\{{[^}}]*\}}|_\w+|\^\{{?-?\d+\}}?", text)
     ]
@@ -164,7 +171,10 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
 
 
 def _sites(tree: ast.Module) -> Iterator[tuple[ast.AST, str, str]]:
-    """(node, function, kind) of everything worth altering inside functions: numbers, signs, operators."""
+    """(node, function, kind) of everything worth altering: numbers, signs, operators; a module's constants too."""
+    for node in (n for top in tree.body if not isinstance(top, ast.FunctionDef | ast.ClassDef) for n in ast.walk(top)):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Rational":
+            yield node.args[0], "constants", "number"
     for function in (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)):
         skipped: set[ast.AST] = set()
         for node in ast.walk(function):

@@ -78,10 +78,13 @@ def derivative(b: Batch) -> Statements:
     ki, K = b.gain("ki"), b.gain("K")
     fast = 11 * K  # K(1 + N) with a filter of N = 10, over K
     slow, even, late = ki[b.lag], ki[b.balanced], ki[b.delay]
+    helps = b.said("derivative-helps-lags")
+    much = np.median(ki[b.tau < 0.2])
     parts = {
-        r"less than twice for $\tau > 0.6$": late.max() < 2,
-        r"less than twice for balanced processes": even.max() < 2,
-        r"more than five times for most with $\tau < 0.2$": np.median(ki[b.tau < 0.2]) > 5,
+        "the direction": all(helps.agrees("effect", x - 1) for x in ki),
+        r"less than twice for $\tau > 0.6$": helps.agrees("rest", late.max() - 2),
+        r"less than twice for balanced processes": helps.agrees("rest", even.max() - 2),
+        r"more than five times for most with $\tau < 0.2$": helps.agrees("lag", much - 5),
     }
     ranges = f"{late.min():.2f} to {late.max():.2f} for tau > 0.6, up to {even.max():.2f} for balanced processes"
     return {
@@ -108,9 +111,7 @@ def derivative_filter(b: Batch) -> Statements:
         "that of most": worse > 0.5,
         "the adjusted data raise it again for most": mended > 0.5,
     }
-    evidence = (
-        f"with the filter the robustness 1/M changes so on {percent(worse)} of the processes; adjusted data mend it on "
-    )
+    evidence = f"with the filter 1/M changes so on {percent(worse)} of the processes; adjusted data mend it on "
     return {
         "filter-costs-robustness": (parts, f"{evidence}{percent(mended)}."),
         "filter-costs-ki": (
@@ -164,7 +165,10 @@ def pid_step(b: Batch) -> Statements:
         "pid-Ti-high": _on_one_side(off["Ti"], r.Ti[rest["Ti"]]),
         "pid-Td-good": _follows(r.Td[good["Td"]]),
         "pid-Td-half": (extreme < 0.5, f"{len(half)} processes: {robust.spread(half)}"),
-        "pid-Td-either": (Td_there.min() < 1 < Td_there.max(), either + robust.spread(Td_there)),
+        "pid-Td-either": (
+            {way: any(b.said("pid-Td-either").agrees(way, x - 1) for x in Td_there) for way in ("one", "other")},
+            either + robust.spread(Td_there),
+        ),
     }
 
 
@@ -189,6 +193,7 @@ def pid_step_robustness(b: Batch) -> Statements:
     kinds = {r"$\tau < 0.3$": there & b.lag, r"$\tau > 0.3$": there & ~b.lag}
     most = {name: [np.mean(x[k]) if k.any() else 0.0 for x in (lower, longer)] for name, k in kinds.items()}
     parts = {name: min(shares) > 0.8 for name, shares in most.items()}
+    good = b.said("pid-good-where-not-needed")
     late, slow = r.ki[b.tau > 0.5], r.ki[b.lag]
     gains = np.median(ki[b.tau > 0.5]), np.median(ki[b.lag])
     medians = f"median {np.median(rule):.2f} against {np.median(best):.2f}"
@@ -200,7 +205,12 @@ def pid_step_robustness(b: Batch) -> Statements:
         ),
         "pid-conservative-below": (parts, f"{there.sum()} processes, {shares}."),
         "pid-good-where-not-needed": (
-            share_within(late, WELL) >= NEARLY_ALL and share_within(slow, WELL) < 0.5 and gains[1] > 4 * gains[0],
+            {
+                "good there": share_within(late, WELL) >= NEARLY_ALL,
+                "the grade for lags": good.agrees("grade", share_within(slow, WELL) - share_within(late, WELL)),
+                "what derivative action adds there": good.agrees("rest", gains[0] - 2),
+                "what it adds for lags": good.agrees("lag", gains[1] - 4 * gains[0]),
+            },
             f"ki for tau > 0.5: {robust.spread(late)}, derivative action adds a factor {gains[0]:.2f}; for tau < 0.3: "
             f"{robust.spread(slow)}, a factor {gains[1]:.1f} (medians)",
         ),
