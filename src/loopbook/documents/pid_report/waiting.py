@@ -32,7 +32,7 @@ class Passes:
         return self.instants[-1] - self.instants[-2]
 
 
-def run(settings: PidSettings, wait: float, spent: float, passes: int = 20) -> Passes:
+def run_passes(settings: PidSettings, wait: float, spent: float, passes: int = 20) -> Passes:
     """Passes of the program of figure 4.9 on the measurement y = t: each takes `spent` seconds, then waits `wait`.
 
     settings: with the h that the gains are computed for, Td > 0, no filter and no limits in reach. The slope is what

@@ -1,8 +1,7 @@
 """What section 5.3 of pid-report says of its rules, tested on the batch: by claim, (parts, evidence) for the ledger.
 
 The report uses words; here they have numbers. *Well* is within 15 % of the optimum, *fairly near* within 25 %, *nearly
-all* is nine of ten processes, *most* is more than half. Lag-dominated is tau < 0.3, balanced 0.4 < tau < 0.6.
-"""
+all* is nine of ten processes, *most* is more than half. Lag-dominated is tau < 0.3, balanced 0.4 < tau < 0.6."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
@@ -296,6 +295,6 @@ def whole(b: Batch) -> Statements:
         ),
         "simple-experiments": (
             max(worst.values()) < FRAGILE < zn.min(),
-            "all loops stable; largest joint M: " + ", ".join(f"{name} {M:.2f}" for name, M in worst.items()),
+            f"all loops stable; largest joint M: {', '.join(f'{name} {M:.2f}' for name, M in worst.items())}",
         ),
     }
