@@ -99,6 +99,18 @@ def limited(run: Any) -> Any:
     return curves(panels, "The sampled regulator within the actuator's limits", height=4.6)
 
 
+def _load_against_peak(axis: Any, chosen: Any, title: str) -> None:
+    """The axes of load error against robustness, with the usual limits of Ms and a ring around the chosen loop."""
+    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
+    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
+        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
+    axis.set_yscale("log")
+    axis.set_xlabel("sensitivity peak $M_s$")
+    axis.set_ylabel("IAE after a load step")
+    axis.set_title(title)
+    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+
+
 def along(curve: Sequence[Any], chosen: Any) -> Any:
     """The trade-off along the knob from slow to fast: a line of PI and one of PID; the chosen loop ringed.
 
@@ -115,14 +127,7 @@ def along(curve: Sequence[Any], chosen: Any) -> Any:
         axis.plot([e.Ms for _, e in points], [e.iae_load for _, e in points], label=kind, **how)
         for knob, e in points:
             axis.annotate(f"{knob.speed:g}", (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
-    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
-    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
-        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
-    axis.set_yscale("log")
-    axis.set_xlabel("sensitivity peak $M_s$")
-    axis.set_ylabel("IAE after a load step")
-    axis.set_title("From slow (0) to fast (1)")
-    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+    _load_against_peak(axis, chosen, "From slow (0) to fast (1)")
     if curve:
         axis.legend(fontsize="small")
     return fig
@@ -139,14 +144,7 @@ def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
         colour = COLOURS[i % len(COLOURS)]
         axis.plot(e.Ms, e.iae_load, color=colour, label=f"{i + 1}  {e.candidate.name}", **how)
         axis.annotate(str(i + 1), (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
-    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
-    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
-        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
-    axis.set_yscale("log")
-    axis.set_xlabel("sensitivity peak $M_s$")
-    axis.set_ylabel("IAE after a load step")
-    axis.set_title("Robustness against load rejection")
-    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+    _load_against_peak(axis, chosen, "Robustness against load rejection")
     if stable:
         axis.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return fig
