@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,9 @@ from derivations.errors import LoopbookError
 from derivations.plants import gain_scheduling as g
 from loopbook.experiments.data import StepData
 from loopbook.experiments.two_points import PARTS, fit
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 STRUCTURES = ("inside", "outside")
 ACTS_ON = ("error", "measurement")
@@ -37,9 +40,9 @@ class Schedule:
     (2.88, 1.1, 0.275)
     """
 
-    K: Any
-    Ti: Any
-    Td: Any
+    K: "Expr | float"
+    Ti: "Expr | float"
+    Td: "Expr | float"
 
     @classmethod
     def fixed(cls, K: float, Ti: float, Td: float) -> "Schedule":
@@ -66,7 +69,7 @@ class Schedule:
         )
 
     @cached_property
-    def _function(self) -> Callable[..., Any]:
+    def _function(self) -> Callable[..., tuple[float, float, float]]:
         import sympy
 
         return sympy.lambdify(g.y, [sympy.sympify(e, strict=True) for e in (self.K, self.Ti, self.Td)], modules="math")
