@@ -8,7 +8,7 @@ set-point are segment borders.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -60,13 +60,8 @@ class Schedule:
         if len(outputs) != 3 or len(settings) != 3 or len(set(outputs)) != 3:
             raise ScheduleError(f"a parabola needs three different outputs with settings, got {list(outputs)}")
         columns = zip(*settings, strict=True)
-        exact = [sympy.nsimplify(x, rational=True) for x in outputs]
-        return cls(
-            *(
-                g.parabola([(x, sympy.nsimplify(v, rational=True)) for x, v in zip(exact, c, strict=True)])
-                for c in columns
-            )
-        )
+        rational = partial(sympy.nsimplify, rational=True)
+        return cls(*(g.parabola(list(zip(map(rational, outputs), map(rational, c), strict=True))) for c in columns))
 
     @cached_property
     def _function(self) -> Callable[..., tuple[float, float, float]]:
