@@ -9,9 +9,12 @@ import math
 import numbers
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+
+Number: TypeAlias = Any
+"""A real number of any kind that adds, multiplies and compares: int, float, Fraction, NumPy's single precision."""
 
 EXPECTED = "a real number is expected (int, float, Fraction, Decimal, a NumPy or SymPy number)"
 

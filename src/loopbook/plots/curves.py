@@ -1,7 +1,10 @@
 """Named curves over one axis, in one panel or several: step responses, control signals, static characteristics."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)))
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -16,7 +19,7 @@ def curves(
     levels: Sequence[float] = (),
     instants: Sequence[float] = (),
     height: float = 0.0,
-) -> Any:
+) -> "Figure":
     """A matplotlib figure: per panel its y label (with the unit) and its curves by name as (x values, y values).
 
     levels: horizontal guides in the first panel. instants: vertical guides in every panel. height: inch; default 3

@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,9 @@ from loopbook.numerics.step_response import open_loop_step
 from loopbook.numerics.units import characteristic_time, in_units
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class ProcessError(LoopbookError):
@@ -156,7 +159,7 @@ class Process:
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"
 
-    def plot(self, horizon: float | None = None) -> Any:
+    def plot(self, horizon: float | None = None) -> "Figure":
         """The unit step response as a matplotlib figure, up to the horizon [s]."""
         if horizon is None:
             horizon = self.delay * 2 + 7 * float(sum(1 / abs(p.real) for p in self.poles if p.real)) or 10.0

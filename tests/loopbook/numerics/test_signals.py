@@ -37,7 +37,6 @@ def test_integrals_of_a_sine():
 def test_a_jump_counts_from_its_instant_on_and_is_a_root_of_what_it_crosses():
     stairs = Signal(np.array([1.0, 2.0, 3.0]), np.array([[1.0], [-2.0]]))
     assert stairs([0.5, 1.0, 1.999, 2.0, 3.0]).tolist() == [0, 1, 1, -2, -2]
-    assert stairs.limit_before(2.0) == 1
     assert stairs.roots(0.5).tolist() == [1, 2]
     assert stairs.peak() == (2, -2)
     assert stairs.integral_of_magnitude() == 3

@@ -100,23 +100,6 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
     return pdf
 
 
-def picture_pdf(svg: bytes) -> bytes:
-    """A drawing as a PDF page of its own size, its text as text. Raises TypstFailed."""
-    import typst
-
-    page = b'#set page(width: auto, height: auto, margin: 0pt)\n#image("picture.svg")'
-    with tempfile.TemporaryDirectory(prefix="pdf-", dir=runtime.folder()) as folder:
-        (Path(folder) / "picture.svg").write_bytes(svg)
-        (Path(folder) / "main.typ").write_bytes(page)
-        try:
-            compiler = typst.Compiler(str(Path(folder) / "main.typ"), root=folder, font_paths=fonts())
-            pdf = compiler.compile(timestamp=int(EPOCH))
-        except typst.TypstError as error:
-            raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
-    assert isinstance(pdf, bytes), "a PDF is one piece"
-    return pdf
-
-
 def _diagnostics(text: str, message: str) -> list[Diagnostic]:
     found = []
     for part in re.split(r"^(?=(?:error|warning): )", text, flags=re.MULTILINE):
