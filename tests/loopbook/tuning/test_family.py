@@ -139,7 +139,7 @@ def test_the_half_rule_of_four_equal_lags():
 
 def test_what_the_half_rule_does_not_cover_is_refused_with_the_way_out():
     for process in (Process([1], [1, 0.2, 1], 1), Process([1, 1], [2, 3, 1], 1)):
-        with pytest.raises(RuleDoesNotApply, match=r"use loopbook\.experiments\.step\.exact\(process\)"):
+        with pytest.raises(RuleDoesNotApply, match=r"use loopbook\.experiments\.step\.step_data\(process\)"):
             tune(process, "simc")
         assert tune(step.step_data(process), "simc").K > 0
 
