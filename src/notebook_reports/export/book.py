@@ -20,8 +20,9 @@ from notebook_reports.export.model import Link, PageNumber, Report, walk
 from notebook_reports.export.page import LinkedTable, Page, page_name, read_page
 from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.read.notebook import level_headings, number_blocks, read
+from notebook_reports.export.write.arrangement import Arrangement
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
-from notebook_reports.export.write.typst_engine import TypstFailed, compile_turning, too_wide_table
+from notebook_reports.export.write.typst_engine import TypstFailed, compile_settled, too_wide_table
 from notebook_reports.export.write.typst_text import literal
 
 __all__ = ["Chapter", "LinkedTable", "Page", "export_book"]
@@ -89,7 +90,7 @@ def export_book(
     bound, anchors, top = _bind(chapters, appendix, appendix_title, language, strict_alt)
     cover = _Cover(title, subtitle, tuple(lines), author, language, contents_depth)
     try:
-        return compile_turning(lambda turned: _source(bound, anchors, top, cover, turned))
+        return compile_settled(lambda layout: _source(bound, anchors, top, cover, layout))
     except TypstFailed as error:
         raise _of_chapter(error) from None
 
@@ -150,7 +151,7 @@ def _dead_links(report: Report, anchors: dict[str, set[str]]) -> list[Problem]:
 
 
 def _source(
-    bound: list[_Bound], anchors: dict[str, set[str]], top: int, cover: _Cover, turned: frozenset[str]
+    bound: list[_Bound], anchors: dict[str, set[str]], top: int, cover: _Cover, layout: Arrangement
 ) -> tuple[str, dict[str, bytes]]:
     """The Typst source of the book and the files beside it; a comment names each chapter for `_of_chapter`."""
     lines = "".join(f"[{TypstWriter().inline(read_inline(line))}], " for line in cover.lines)
@@ -161,7 +162,7 @@ def _source(
     roman = 0
     for entry in bound:
         report = entry.report
-        writer = TypstWriter(report.name, f"{report.name}#", anchors, turned)
+        writer = TypstWriter(report.name, f"{report.name}#", anchors, layout)
         pieces.append(f"// chapter {report.name}\n// cell 0")
         if entry.part:
             roman += 1

@@ -132,7 +132,10 @@ class Heading:
 
 @dataclass
 class Paragraph:
+    """leads: it introduces what follows, and stays on the page of that."""
+
     children: list[Inline]
+    leads: bool = False
 
 
 @dataclass

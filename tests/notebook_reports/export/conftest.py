@@ -66,18 +66,18 @@ SVG = (
 def typst(nb, **particulars):
     """The Typst source of a notebook, compiled on the way, so that what a test reads is known to be a PDF."""
     from notebook_reports.export.exporters.pdf import PdfExporter
-    from notebook_reports.export.write.typst_engine import compile_turning
+    from notebook_reports.export.write.typst_engine import compile_settled
 
     told = {"name": "folder/sample", "mode": "strict", **particulars}
     exporter = PdfExporter()
     report = exporter.report(nb, {"metadata": {}, "loopbook": told})
     sources = []
 
-    def write(turned):
-        sources.append(exporter.source(report, turned))
+    def write(layout):
+        sources.append(exporter.source(report, layout))
         return sources[-1]
 
-    assert compile_turning(write).startswith(b"%PDF-1.7")
+    assert compile_settled(write).startswith(b"%PDF-1.7")
     return sources[-1][0]
 
 

@@ -21,7 +21,8 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from notebook_reports.export.exporters.html import HtmlExporter
 from notebook_reports.export.exporters.pdf import PdfExporter
 from notebook_reports.export.words import compare
-from notebook_reports.export.write.pdf_text import PdfText, outside, text_of
+from notebook_reports.export.write.page_words import outside, text_of
+from notebook_reports.export.write.pdf_text import PdfText
 
 FOLDER = Path(__file__).parent / "kinds"
 

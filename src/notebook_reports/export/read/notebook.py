@@ -3,6 +3,7 @@
 import difflib
 import posixpath
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -19,6 +20,7 @@ from notebook_reports.export.model import (
     Listing,
     Mend,
     Note,
+    Paragraph,
     Picture,
     Report,
     ReportCell,
@@ -40,6 +42,8 @@ NO_INPUT = {"remove-input", "hide-input", "remove_input", "hide_input"}
 NO_OUTPUT = {"remove-output", "remove_output"}
 NO_CELL = {"remove-cell", "remove_cell"}
 NEW_PAGE = "new-page"
+LONGEST_LEAD = 360
+"""Characters of a paragraph, four lines, up to which it stays with what it introduces."""
 _SCHEME = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*):")
 _NUMBERED = re.compile(r"\s*(\d+(\.\d+)*[.):]?|[IVX]+\.|[A-Z]\.|§.*)\s")
 
@@ -84,6 +88,7 @@ def read(
     report.aliases = plain_headings(cells)
     level_headings(cells)
     number_blocks(cells)
+    mark_leads(cells)
     equations = number_equations(report)
     collect_anchors(report, reading)
     settle_references(report, equations, reading)
@@ -204,6 +209,15 @@ def number_blocks(cells: list[ReportCell], chapter: str = "") -> None:
             word = "Table" if isinstance(block, Grid) else "Figure"
             counts[word] += 1
             block.number = f"{word} {chapter}{counts[word]}"
+
+
+def mark_leads(cells: list[ReportCell]) -> None:
+    """Mark the paragraphs that introduce what follows: those that end in a colon, and a short one before code."""
+    blocks = [(block, bool(cell.anchor)) for cell in cells for block in cell.blocks]
+    for (block, _), (after, by_code) in pairwise(blocks):
+        if isinstance(block, Paragraph) and not isinstance(after, Paragraph | Heading):
+            words = plain(block.children).rstrip()
+            block.leads = (words.endswith(":") or by_code) and len(words) <= LONGEST_LEAD
 
 
 def collect_anchors(report: Report, reading: Reading) -> None:

@@ -45,8 +45,9 @@ from notebook_reports.export.model import (
 from notebook_reports.export.read.css import readable_on
 from notebook_reports.export.read.notebook import beside
 from notebook_reports.export.read.picture_sizes import pixel_width
+from notebook_reports.export.write.arrangement import AS_IT_COMES, Arrangement
 from notebook_reports.export.write.breaking import pieces as line_ends
-from notebook_reports.export.write.column_widths import TEXT_HEIGHT, TEXT_WIDTH, deciding, height, unbroken, words
+from notebook_reports.export.write.column_widths import LINE, TEXT_HEIGHT, TEXT_WIDTH, deciding, height, unbroken, words
 from notebook_reports.export.write.glyphs import latex_without_absent, without_absent
 from notebook_reports.export.write.highlighting import lines
 from notebook_reports.export.write.svg_fonts import with_known_fonts
@@ -65,7 +66,7 @@ STYLES = ("emph", "strong", "strike", "underline", "sub", "super")
 IMPORT = '#import "report.typ": ' + ", ".join(
     (
         *("report", "book", "part", "chapter", "section", "landscape"),
-        *("m", "long-m", "small-m", "code", "inner", "outer", "page-of", "task", "quoted", "inline-picture"),
+        *("m", "long-m", "small-m", "code", "inner", "outer", "page-of", "task", "quoted", "lead", "inline-picture"),
         *("listing", "formula", "drawing", "data-table", "thematic-break", "marked", "brk", "tinted", "alert"),
         *("mend", "mend-words", "mend-remark", "mend-list"),
         *("probe", "probe-code", *(f"probe-{style}" for style in STYLES)),
@@ -76,6 +77,8 @@ LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 0.3 * TEXT_HEIGHT
 """Points of height, by estimate, from which on a table may go on over pages."""
+KEPT_UP_TO = 0.17 * TEXT_HEIGHT
+"""Points of height, by estimate, up to which code and its output stay together."""
 
 
 @dataclass
@@ -84,8 +87,8 @@ class TypstWriter:
 
     name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
-    leads to its own PDF beside this one. turned: the tables that get a landscape page, by name, count and content
-    ("a/b 3 1f0c"). grids: the tables written, by that name.
+    leads to its own PDF beside this one. layout: what is known of the pages; it names tables and figures by notebook,
+    count and content ("a/b 3 1f0c"). grids: the tables written, by that name.
     naming: characters known to be in no font are written by their names.
     probing: write what is only measured. The engine looks for a measured element in the page and, having found it, lays
     all out anew; so what is measured equals nothing on the page, but is as wide.
@@ -94,12 +97,13 @@ class TypstWriter:
     name: str = ""
     prefix: str = ""
     chapters: dict[str, set[str]] | None = None
-    turned: frozenset[str] = frozenset()
+    layout: Arrangement = AS_IT_COMES
     naming: bool = False
     files: dict[str, bytes] = field(default_factory=dict)
     grids: dict[str, Grid] = field(default_factory=dict)
     cell: int = 0
     tables: int = 0
+    figures: int = 0
     in_table: bool = False
     probing: bool = False
 
@@ -108,7 +112,7 @@ class TypstWriter:
         self.cell = cell.number
         first, *rest = (self.block(block) for block in cell.blocks)
         if rest and isinstance(cell.blocks[0], Listing):
-            first = self.listing(cell.blocks[0], keep=True)
+            first = self.listing(cell.blocks[0], keep=_together(*cell.blocks[:2]))
         if cell.anchor and (isinstance(cell.blocks[0], Paragraph) or first.startswith("#landscape")):
             first = self.node(Anchor(cell.anchor)) + first
         elif cell.anchor and not isinstance(cell.blocks[0], Heading):
@@ -121,8 +125,8 @@ class TypstWriter:
 
     def block(self, block: Block) -> str:
         match block:
-            case Paragraph(children):
-                return self.inline(children)
+            case Paragraph(children, leads):
+                return f"#lead[{self.inline(children)}]" if leads else self.inline(children)
             case Heading(level, children, anchor, number):
                 return f"#section({level}, {literal(number)}, {self.label(anchor)})[{self.inline(children)}]"
             case Display():
@@ -144,16 +148,15 @@ class TypstWriter:
                 return "#thematic-break()"
             case Grid():
                 return self.grid(block)
-            case Figure(picture, caption, number):
-                told = f"[{self.inline(caption)}]" if caption else "none"
-                return f"#drawing({self.picture(picture)}, {told}, {literal(number)})"
+            case Figure():
+                return self.figure(block)
             case Live():
                 return self.blocks(block.instead)
         raise TypeError(f"no Typst form for {type(block).__name__}")
 
     def listing(self, block: Listing, keep: bool = False) -> str:
-        """Preformatted text, cut where its colours change. keep: a short one stays on the page of what follows it."""
-        kept = ", keep: true" if keep and block.text.count("\n") < 15 else ""
+        """Preformatted text, cut where its colours change. keep: it stays on the page of what follows it."""
+        kept = ", keep: true" if keep else ""
         text = self.shown(block.text).replace("\u200b", "")
         rows = ""
         if block.language or any(_stuck(line) for line in text.split("\n")):
@@ -318,6 +321,17 @@ class TypstWriter:
             f"#formula({self.where('a formula', digest(block.latex))}, {whole}, ({broken}), {label}, {anchor}{small})"
         )
 
+    def figure(self, figure: Figure) -> str:
+        """A picture on its own lines; one with a caption may float."""
+        picture = self.picture(figure.picture)
+        if not figure.caption:
+            return f"#drawing({picture}, none, {literal(figure.number)})"
+        self.figures += 1
+        id = f"{self.name} {self.figures} {digest(picture)}"
+        floats = ", floats: true" if id in self.layout.floating else ""
+        told = f"[{self.inline(figure.caption)}], {literal(figure.number)}"
+        return f"#drawing({picture}, {told}, id: {literal(id)}{floats})"
+
     def grid(self, grid: Grid) -> str:
         self.in_table = True
         cells, measured = ",\n".join(self.table_cell(cell) for cell in grid.cells), self.measured(grid)
@@ -332,7 +346,7 @@ class TypstWriter:
         short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
         body = f"(\n{cells},\n), {measured}, short: {short}"
         table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), {body})"
-        return f"#landscape[{table}]" if id in self.turned else table
+        return f"#landscape[{table}]" if id in self.layout.turned else table
 
     def measured(self, grid: Grid) -> str:
         """What the engine measures to know the columns: for each its widest cells, and pieces that no line end divides;
@@ -413,6 +427,22 @@ class TypstWriter:
 def digest(text: str) -> str:
     """What a piece of a report is called between the engine and us: the same for the same content."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _together(code: Listing, output: Block) -> bool:
+    """Do code and its output stay on one page? They may part where the two would leave much of a page empty."""
+    match output:
+        case Display():
+            room = 3 * LINE
+        case Grid():
+            room = height(output) + 3 * LINE
+        case Listing():
+            room = 2 * LINE
+        case Figure():
+            return False
+        case _:
+            room = LINE
+    return room + LINE * code.text.count("\n") < KEPT_UP_TO
 
 
 def _stuck(line: str) -> bool:
