@@ -150,11 +150,13 @@ class Display:
 
 @dataclass
 class Listing:
-    """Preformatted text. role: input, code, output, stderr or error. language: a Pygments name, "" for plain text."""
+    """Preformatted text. role: input, code, output, stderr or error. language: a Pygments name, "" for plain text.
+    folded: to be shown only to who asks; not on paper."""
 
     text: str
     role: str = "code"
     language: str = ""
+    folded: bool = False
 
 
 @dataclass
@@ -201,6 +203,14 @@ class Alert:
     """A box that asks for attention. kind: info, success, warning or danger."""
 
     kind: str
+    blocks: list["Block"]
+
+
+@dataclass
+class Folded:
+    """What is shown to who asks for it, on a screen; on paper it is there."""
+
+    words: str
     blocks: list["Block"]
 
 
@@ -260,7 +270,20 @@ class Live:
 
 
 Block = (
-    Heading | Paragraph | Display | Listing | Bullets | Definitions | Quote | Alert | Rule | Grid | Figure | Mend | Live
+    Heading
+    | Paragraph
+    | Display
+    | Listing
+    | Bullets
+    | Definitions
+    | Quote
+    | Alert
+    | Folded
+    | Rule
+    | Grid
+    | Figure
+    | Mend
+    | Live
 )
 
 
@@ -298,6 +321,11 @@ class Report:
     mends: list[tuple[int, Mend]] = field(default_factory=list)
 
     @property
+    def place(self) -> str:
+        """What stands above the title: the chapter of a book, else the document it belongs to."""
+        return self.chapter or self.document
+
+    @property
     def plain_title(self) -> str:
         """The title in characters, for metadata and running heads."""
         return plain(self.title, "text")
@@ -313,7 +341,7 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Alert() | Item() | Note():
+        case ReportCell() | Quote() | Alert() | Folded() | Item() | Note():
             return node.blocks
         case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children

@@ -82,8 +82,13 @@ def typst(nb, **particulars):
 
 
 def html(nb, **particulars):
-    """The HTML of a notebook."""
-    return export(nb, "html", **{"name": "folder/sample", **particulars}).decode()
+    """The HTML of a notebook without the script that every page has, known to be there once and as it should be."""
+    from notebook_reports.export.exporters.html import page_script
+
+    page = export(nb, "html", **{"name": "folder/sample", **particulars}).decode()
+    own = f"<script>{page_script()}</script>\n"
+    assert page.count(own) == 1
+    return page.replace(own, "")
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from typing import Any
 
 from traitlets import default
 
+from notebook_reports.export.code_cells import for_paper
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import (
     ReportExporter,
@@ -46,6 +47,7 @@ class PdfExporter(ReportExporter):
     def report(self, nb: Any, resources: dict[str, Any]) -> Report:
         """The notebook read, its formulas known to be understood. Raises ExportError."""
         report = super().report(nb, resources)
+        for_paper(report)
         if self.mended(resources):
             mend_formulas(report, "typst")
             number(report)

@@ -14,6 +14,7 @@ from notebook_reports.export.model import (
     Block,
     Display,
     Figure,
+    Folded,
     Grid,
     Heading,
     Link,
@@ -38,9 +39,13 @@ from notebook_reports.export.read.outputs import read_outputs
 from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
 from notebook_reports.export.read.terminal import visible
 
-NO_INPUT = {"remove-input", "hide-input", "remove_input", "hide_input"}
+NO_INPUT = {"remove-input", "remove_input"}
 NO_OUTPUT = {"remove-output", "remove_output"}
 NO_CELL = {"remove-cell", "remove_cell"}
+FOLDED_INPUT = {"hide-input", "hide_input", "hide-cell", "hide_cell"}
+FOLDED_OUTPUT = {"hide-output", "hide_output", "hide-cell", "hide_cell"}
+PARTS = ("markdown", "raw", "code", "input", "output")
+"""What may be left out of a report as a whole."""
 NEW_PAGE = "new-page"
 LONGEST_LEAD = 360
 """Characters of a paragraph, four lines, up to which it stays with what it introduces."""
@@ -60,12 +65,13 @@ def read(
     strict_alt: bool = False,
     mode: str = "strict",
     root: Path | None = None,
+    leave_out: frozenset[str] = frozenset(),
 ) -> Report:
     """Read a notebook (nbformat 4). Raises ExportError that names every cell which holds what no page can show.
 
     The title is the one given, else the first top heading, else the last part of `name`. name: "folder/notebook", as
     links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes. folder:
-    where relative images are looked up; root: below which they have to lie, default the folder.
+    where relative images are looked up; root: below which they have to lie, default the folder. leave_out: of `PARTS`.
     """
     reading = Reading(folder, document, strict_alt, mode == "mend", root)
     sources = _markdown_sources(notebook)
@@ -74,7 +80,7 @@ def read(
     for number, cell in enumerate(notebook["cells"], start=1):
         reading.cell = number
         reading.attachments = cell.get("attachments") or {}
-        blocks = _cell(cell, reading, _language(notebook))
+        blocks = _cell(cell, reading, _language(notebook), leave_out)
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
         cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
     first = _take_title(cells)
@@ -112,10 +118,10 @@ def _language(notebook: Any) -> str:
     return (told or "python").lower()
 
 
-def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
+def _cell(cell: Any, reading: Reading, language: str, leave_out: frozenset[str] = frozenset()) -> list[Block]:
     tags = set(cell.get("metadata", {}).get("tags", ()))
     source = _source(cell)
-    if tags & NO_CELL:
+    if tags & NO_CELL or cell["cell_type"] in leave_out:
         return []
     match cell["cell_type"]:
         case "markdown" | "heading":
@@ -124,10 +130,13 @@ def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
             return reading.attempt(lambda: _raw(source, cell.get("metadata", {}), reading), source)
         case "code":
             blocks: list[Block] = []
-            if source.strip() and not tags & NO_INPUT:
-                blocks.append(Listing(visible(source.expandtabs(4)).strip("\n"), "input", language))
-            if not tags & NO_OUTPUT:
-                blocks += read_outputs(cell.get("outputs") or (), reading)
+            removed = tags & NO_INPUT or "input" in leave_out or cell.get("transient", {}).get("remove_source")
+            if source.strip() and not removed:
+                text = visible(source.expandtabs(4)).strip("\n")
+                blocks.append(Listing(text, "input", language, bool(tags & FOLDED_INPUT)))
+            if not tags & NO_OUTPUT and "output" not in leave_out:
+                shown = read_outputs(cell.get("outputs") or (), reading)
+                blocks += [Folded("Output", shown)] if shown and tags & FOLDED_OUTPUT else shown
             return blocks
     told = CannotShow(f"a cell of the kind {cell['cell_type']}; make it Markdown or code", "cell", text=source)
 

@@ -21,6 +21,7 @@ from notebook_reports.export.model import (
     Definitions,
     Display,
     Figure,
+    Folded,
     Grid,
     Heading,
     Inline,
@@ -142,6 +143,8 @@ class TypstWriter:
                 return f"#quoted[{self.blocks(blocks)}]"
             case Alert(kind, blocks):
                 return f"#alert({literal(kind)})[{self.blocks(blocks)}]"
+            case Folded(_, blocks):
+                return self.blocks(blocks)
             case Mend():
                 return self.mend(block)
             case Rule():
