@@ -130,7 +130,11 @@ def _cell(cell: Any, reading: Reading, language: str, leave_out: frozenset[str] 
             return reading.attempt(lambda: _raw(source, cell.get("metadata", {}), reading), source)
         case "code":
             blocks: list[Block] = []
-            removed = tags & NO_INPUT or "input" in leave_out or cell.get("transient", {}).get("remove_source")
+            removed = (
+                tags & NO_INPUT
+                or "input" in leave_out
+                or cell.get("metadata", {}).get("transient", {}).get("remove_source")
+            )
             if source.strip() and not removed:
                 text = visible(source.expandtabs(4)).strip("\n")
                 blocks.append(Listing(text, "input", language, bool(tags & FOLDED_INPUT)))
