@@ -26,13 +26,15 @@ from notebook_reports.run.canonical import canonical, dump, renew_prose
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a build is asked for. output: the folder of the reports, None for the usual. exporter: see `writing`."""
+    """What a build is asked for. output: the folder of the reports, None for the usual. exporter: see `writing`.
+    code: where the book has its code, "" for what book.toml says."""
 
     formats: tuple[str, ...] = ("pdf", "html", "ipynb")
     output: Path | None = None
     force: bool = False
     timeout: float = 600
     exporter: Exporter | None = None
+    code: str = ""
 
 
 @dataclass

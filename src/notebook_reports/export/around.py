@@ -1,4 +1,4 @@
-"""What stands around a report on the screen: the page that lists all, its neighbours, its other forms."""
+"""What stands around a report on the screen: the page that lists all, its neighbours, its other forms, its tools."""
 
 from dataclasses import dataclass
 
@@ -19,3 +19,11 @@ class Around:
     before: Door | None = None
     after: Door | None = None
     files: tuple[Door, ...] = ()
+
+
+@dataclass(frozen=True)
+class Tools:
+    """What a page has beside its text: markup above it, and the script that makes it work."""
+
+    markup: str
+    script: str

@@ -221,7 +221,11 @@ class Rule:
 
 @dataclass
 class Cell:
-    """One cell of a table at column x, row y of its grid."""
+    """One cell of a table at column x, row y of its grid.
+
+    again: it repeats the cell above, and is seen only where that is not: on another page. pad: what its number lacks
+    behind for the decimal points of its column to stand below each other, "" or such as "0" or ".00".
+    """
 
     children: list[Inline]
     x: int = 0
@@ -233,6 +237,8 @@ class Cell:
     mark: str = ""
     ink: str = ""
     ground: str = ""
+    again: bool = False
+    pad: str = ""
 
 
 @dataclass

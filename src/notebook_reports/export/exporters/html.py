@@ -5,13 +5,12 @@ dark as the reader's system asks, and as narrow as a phone.
 """
 
 import functools
-from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 from traitlets import default
 
-from notebook_reports.export.around import Around
+from notebook_reports.export.around import Around, Tools
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, ReportExporter, problems
 from notebook_reports.export.mends import number
@@ -20,14 +19,6 @@ from notebook_reports.export.write.html import HtmlWriter
 from notebook_reports.export.write.html_frame import bar, contents, onward
 from notebook_reports.export.write.mathematics_font import font_face
 from notebook_reports.export.write.mending import mend_formulas
-
-
-@dataclass(frozen=True)
-class Tools:
-    """What a page has beside its text: markup above it, and the script that makes it work."""
-
-    markup: str
-    script: str
 
 
 @functools.cache

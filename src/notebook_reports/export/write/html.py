@@ -184,11 +184,11 @@ class HtmlWriter:
         tag = "th" if cell.head else "td"
         spans = "".join(f' {k}="{v}"' for k, v in (("colspan", cell.colspan), ("rowspan", cell.rowspan)) if v > 1)
         scope = f' scope="{("colgroup" if cell.colspan > 1 else "col") if in_head else "row"}"' if cell.head else ""
-        classes = [c for c in (cell.align if cell.align != "left" else "", cell.mark) if c]
+        classes = [c for c in (cell.align if cell.align != "left" else "", cell.mark, "again" * cell.again) if c]
         if len(plain(cell.children)) > 28:
             classes.append("long")
         css = f' class="{" ".join(classes)}"' if classes else ""
-        css += _colours(cell.ink, cell.ground)
+        css += _looks(cell)
         symbol = f'<span class="symbol">{_MARKS[cell.mark]}</span> ' if cell.mark else ""
         return f"<{tag}{spans}{scope}{css}>{symbol}{self.inline(cell.children)}</{tag}>"
 
@@ -297,6 +297,14 @@ class HtmlWriter:
         width = f' style="width:{picture.share * 100:g}%"' if picture.share else width
         data = base64.b64encode(picture.data).decode()
         return f'<img src="data:{MIME[picture.kind]};base64,{data}" alt="{alt}"{width}>'
+
+
+def _looks(cell: Cell) -> str:
+    """The style of a cell: its colours, and the room behind a number for the decimal points of its column."""
+    digits, point = cell.pad.count("0"), 0.5 * cell.pad.count(".")
+    pad = f"padding-right:calc(.6rem + {digits + point:g}ch)" if cell.pad else ""
+    colours = _colours(cell.ink, cell.ground)
+    return colours if not pad else f'{colours[:-1]};{pad}"' if colours else f' style="{pad}"'
 
 
 def _fold(words: str, body: str) -> str:

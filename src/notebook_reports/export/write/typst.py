@@ -48,7 +48,15 @@ from notebook_reports.export.read.notebook import beside
 from notebook_reports.export.read.picture_sizes import pixel_width
 from notebook_reports.export.write.arrangement import AS_IT_COMES, Arrangement
 from notebook_reports.export.write.breaking import pieces as line_ends
-from notebook_reports.export.write.column_widths import LINE, TEXT_HEIGHT, TEXT_WIDTH, deciding, height, unbroken, words
+from notebook_reports.export.write.column_widths import (
+    LINE,
+    TEXT_HEIGHT,
+    TEXT_WIDTH,
+    deciding,
+    row_heights,
+    unbroken,
+    words,
+)
 from notebook_reports.export.write.glyphs import latex_without_absent, without_absent
 from notebook_reports.export.write.highlighting import lines
 from notebook_reports.export.write.svg_fonts import with_known_fonts
@@ -78,6 +86,8 @@ LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 0.3 * TEXT_HEIGHT
 """Points of height, by estimate, from which on a table may go on over pages."""
+TALLEST_ROW = 0.3 * TEXT_HEIGHT
+"""Points of height, by estimate, up to which the rows of a table are not divided between pages."""
 KEPT_UP_TO = 0.17 * TEXT_HEIGHT
 """Points of height, by estimate, up to which code and its output stay together."""
 
@@ -346,8 +356,10 @@ class TypstWriter:
         self.grids[id] = grid
         where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.rows}, {grid.head_rows}"
-        short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
-        body = f"(\n{cells},\n), {measured}, short: {short}"
+        rows = row_heights(grid)
+        short = "true" if grid.rows <= 12 and sum(rows) < BREAKABLE_FROM else "false"
+        whole = "true" if max(rows, default=0) < TALLEST_ROW else "false"
+        body = f"(\n{cells},\n), {measured}, short: {short}, whole: {whole}"
         table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), {body})"
         return f"#landscape[{table}]" if id in self.layout.turned else table
 
@@ -369,7 +381,8 @@ class TypstWriter:
         return f"({', '.join(columns)},), ({wide})"
 
     def probe(self, cell: Cell) -> str:
-        body = f"[{self.inline(cell.children)}]"
+        pad = f"#{literal(cell.pad)};" if cell.pad else ""
+        body = f"[{self.inline(cell.children)}{pad}]"
         if cell.mark:
             return f"marked({literal(cell.mark)}, {body})"
         return f"probe-strong({body})" if cell.head else body
@@ -386,7 +399,8 @@ class TypstWriter:
         if cell.ground:
             optional += f", ground: rgb({literal(cell.ground)})"
         head = "true" if cell.head else "false"
-        body = self.inline(cell.children)
+        optional += ", again: true" if cell.again else ""
+        body = self.inline(cell.children) + (f"#hide({literal(cell.pad)});" if cell.pad else "")
         return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
 
     def _solid(self, cell: Cell) -> str:
@@ -438,7 +452,7 @@ def _together(code: Listing, output: Block) -> bool:
         case Display():
             room = 3 * LINE
         case Grid():
-            room = height(output) + 3 * LINE
+            room = sum(row_heights(output)) + 3 * LINE
         case Listing():
             room = 2 * LINE
         case Figure():
