@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench verify chaos mutants prove prove-design lock
+.PHONY: all docs difference dist core test whole quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -32,11 +32,14 @@ all: $(READY) ## run all notebooks and write all reports (the default)
 test: $(READY) ## run the whole test suite
 	@$(BIN)/python -m pytest -n auto --dist loadfile
 
+whole: $(READY) ## the test suite with every survey whole, of which `make test` runs a seeded share
+	@$(BIN)/python -m pytest -n auto --dist loadfile --whole
+
 quick: $(READY) ## while you work: no kernel, no compiler, nothing that takes long
 	@$(BIN)/python -m pytest -n auto --dist loadfile --quick
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 check: $(READY) ## the ledger in a terminal: what holds, and every row that does not
 	@$(BIN)/loopbook --root . check
@@ -67,9 +70,14 @@ core: dist ## the core's tests against the wheel in an environment with NumPy, S
 	@$(PYTHON) -m venv build/core
 	@build/core/bin/python -m pip install --quiet build/dist/*.whl pytest hypothesis
 	@build/core/bin/python tools/core_tests.py
+prove-scaling: $(READY) ## 2,000 seeded loops in other units of time, y and u: what comes out otherwise
+	@$(BIN)/python tests/loopbook/scaling/prove_scaling.py 2000
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench
+
+profile: $(READY) ## the slowest cells and imports of the notebooks: make profile [ONLY=pid_report]
+	@$(BIN)/python tools/profile.py $(ONLY)
 
 verify: $(READY) ## build twice under other folders, homes, users, languages and compare every byte
 	@$(BIN)/loopbook --root . verify

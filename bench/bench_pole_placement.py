@@ -13,7 +13,7 @@ import sympy as sp
 from sympy.core.cache import clear_cache
 
 from derivations.algebra.delay_polynomials import Z
-from derivations.pole_placement.diophantine import integrators, place, solve_system
+from derivations.pole_placement.diophantine import integrators, place_exactly, solve_system
 
 
 def _median(work: Callable, times: int) -> tuple[float, object]:
@@ -30,7 +30,7 @@ def rows(times: int = 9) -> list[tuple[str, float, str]]:
     """(what, seconds, remark); medians of `times` runs, of a third as many for the slow ones."""
     a1, a2, b3, b4, q = sp.symbols("a_1 a_2 b_3 b_4 q")
     plant = 1 + a1 / Z + a2 / Z**2, b3 / Z**3 + b4 / Z**4
-    whole, design = _median(lambda: place(*plant, (1 - q / Z) ** 3, integrators(1)), times)
+    whole, design = _median(lambda: place_exactly(*plant, (1 - q / Z) ** 3, integrators(1)), times)
     matrix, right = design.matrix, design.right_side
     ours, (_, solved) = _median(lambda: solve_system(matrix, right), times)
     raw, inverse = _median(lambda: matrix.inv() * right, max(times // 3, 1))

@@ -29,6 +29,7 @@ FIXTURES = {"outcome", "refused", "size", "understood"}  # these build
 
 def pytest_addoption(parser):
     parser.addoption("--quick", action="store_true", help="no test that starts a kernel or a compiler or takes long")
+    parser.addoption("--whole", action="store_true", help="all of what `make test` takes a seeded share of")
 
 
 def pytest_configure(config):
@@ -74,6 +75,12 @@ def _refuse_builders():
     sys.addaudithook(hook)
     for name in ("Compiler", "compile", "compile_with_warnings", "query"):
         setattr(typst, name, lambda *_, name=name, **__: refuse(f"typst.{name}"))
+
+
+@pytest.fixture(scope="session")
+def share(request):
+    """How much of a long survey runs: share(8, 40) is 8 in `make test` and 40 in `make whole`."""
+    return lambda part, whole: whole if request.config.getoption("--whole") else part
 
 
 @pytest.fixture(scope="session")

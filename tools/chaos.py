@@ -366,7 +366,7 @@ def build(root: Path, verified: bool, kernels: bool) -> int:
         stamps.of_bytes = lambda content: _Anything("x")
         sealed._seal = lambda data, of: _Anything("x")
     if not kernels:
-        runner.run = _without_kernel
+        runner.run_notebook = _without_kernel
     try:
         main(["--root", str(root), "build", "-j2", "--format", ",".join(FORMATS)], prog_name="loopbook")
     except SystemExit as end:

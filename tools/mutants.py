@@ -36,6 +36,7 @@ from mutations import Mutant, claim_mutants, derivation_mutants, importers, inpu
 ROOT = Path(__file__).resolve().parent.parent
 PARTS = ("src", "notebooks", "tests", "tools", "docs", "pyproject.toml", "README.md", "environment.txt")
 WANTED = 0.98
+SERVERS = 4  # notebooks at a time that a copy keeps ready
 BY = ("check", "evidence", "test", "error")
 OFF = """
 
@@ -74,11 +75,15 @@ class Fate:
 
 @dataclass
 class Copy:
-    """A copy of the project to break. off: without verdicts. runs: what its notebooks say unbroken."""
+    """A copy of the project to break. off: without verdicts. runs: what its notebooks say unbroken.
+
+    servers: running processes by notebook, the one used last at the end; see `notebook_checks.serve`.
+    """
 
     folder: Path
     off: bool = False
     runs: Runs = field(default_factory=dict)
+    servers: dict[str, subprocess.Popen[str]] = field(default_factory=dict)
 
     def make(self) -> "Copy":
         self.folder.mkdir(parents=True)
@@ -94,23 +99,52 @@ class Copy:
             verdicts.write_text(verdicts.read_text(encoding="utf-8") + OFF, encoding="utf-8")
         return self
 
-    def said(self, *command: str) -> tuple[int, str]:
+    @property
+    def environment(self) -> dict[str, str]:
         clean = {k: v for k, v in os.environ.items() if k != "PYTEST_ADDOPTS"}
-        env = clean | {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-        whole = [sys.executable, *command]
-        done = subprocess.run(
-            whole, cwd=self.folder, env=env, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False
-        )
+        return clean | {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def said(self, *command: str) -> tuple[int, str]:
+        whole: dict[str, Any] = {"cwd": self.folder, "env": self.environment, "text": True, "check": False}
+        done = subprocess.run([sys.executable, *command], capture_output=True, stdin=subprocess.DEVNULL, **whole)
         return done.returncode, done.stdout + done.stderr
 
-    def checks(self, notebook: str) -> dict[str, Any]:
+    def checks(self, notebook: str, anew: bool = False) -> dict[str, Any]:
+        """What a notebook says now. anew: in a process of its own, which a changed module needs."""
+        if not anew:
+            return self._served(notebook)
         code, said = self.said("tools/notebook_checks.py", f"notebooks/{notebook}.ipynb")
         return json.loads(said.splitlines()[-1]) if code == 0 else {"error": said[-500:], "records": {}}
 
+    def _served(self, notebook: str) -> dict[str, Any]:
+        server = self.servers.pop(notebook, None) or self._serve(notebook)
+        self.servers[notebook] = server
+        assert server.stdin and server.stdout
+        server.stdin.write("\n")
+        server.stdin.flush()
+        return json.loads(server.stdout.readline() or '{"error": "the run ended without a word", "records": {}}')
+
+    def _serve(self, notebook: str) -> subprocess.Popen[str]:
+        while len(self.servers) >= SERVERS:
+            self.servers.pop(next(iter(self.servers))).kill()
+        command = [sys.executable, "tools/notebook_checks.py", f"notebooks/{notebook}.ipynb", "--serve"]
+        pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+        server = subprocess.Popen(command, cwd=self.folder, env=self.environment, text=True, **pipes)
+        assert server.stdout
+        while (line := server.stdout.readline()) and line != "ready\n":
+            pass
+        return server
+
     def unbroken(self, notebook: str) -> dict[str, Any]:
+        """What a notebook says of the project as it is; ask before something is broken."""
         if notebook not in self.runs:
             self.runs[notebook] = self.checks(notebook)
         return self.runs[notebook]
+
+    def close(self) -> None:
+        """End the processes."""
+        while self.servers:
+            self.servers.popitem()[1].kill()
 
 
 def noticed(before: dict[str, Any], after: dict[str, Any], differs: Callable[[Any, Any], bool]) -> list[str]:
@@ -168,7 +202,7 @@ def _look(copy: Copy, mutant: Mutant) -> Fate:
             if code in (1, 2):
                 return Fate(mutant, "test", any(n in said for n in mutant.names))
     for notebook in mutant.notebooks:
-        before, after = copy.unbroken(notebook), copy.checks(notebook)
+        before, after = copy.unbroken(notebook), copy.checks(notebook, anew=mutant.kind == "derivation")
         for by, differs in WAYS[mutant.kind].items():
             if found := noticed(before, after, differs):
                 named = any(n in line for n in mutant.names for line in found)
@@ -188,8 +222,12 @@ def fates(chosen: list[Mutant], jobs: int, off: bool = False) -> list[Fate]:
         for i in range(jobs):
             copies.put(Copy(Path(temporary) / str(i), off).make())
         work = partial(_with_copy, copies)
-        with ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(work, sorted(chosen, key=lambda m: m.notebooks)))
+        try:
+            with ThreadPoolExecutor(jobs) as pool:
+                return list(pool.map(work, sorted(chosen, key=lambda m: m.notebooks)))
+        finally:
+            while not copies.empty():
+                copies.get().close()
 
 
 def _with_copy(copies: "Queue[Copy]", mutant: Mutant) -> Fate:

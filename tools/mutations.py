@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 SWAPS = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*"}
@@ -22,6 +23,9 @@ OPPOSITES = (
         ("largest", "smallest"),
     ),
     *(("high", "low"), ("long", "short"), ("most", "least"), ("over", "under"), ("positive", "negative"), (">", "<")),
+    *(("fast", "slow"), ("large", "small"), ("much", "little"), ("raise", "lower"), ("maximum", "minimum")),
+    *(("amplifies", "attenuates"), ("shortens", "lengthens"), ("helps", "harms"), ("improve", "harm")),
+    *(("nearer", "farther"), ("two", "three"), ("half", "twice"), ("tenth", "ninth")),
 )
 WORDS = {a: b for pair in OPPOSITES for a, b in (pair, pair[::-1])}
 
@@ -125,6 +129,8 @@ def claim_mutants(root: Path) -> Iterator[Mutant]:
     """Each number, direction word and comparison of each statement: in its fields, in its formulas, in its words."""
     rows = {(r["document"], r["id"]): r for r in _rows(root, "claims.csv")}
     for document, path, text, id, start, end in _entries(root, "claim"):
+        if (document, id) not in rows:
+            continue  # not in the ledger yet: build first
         entry, row = text[start:end], rows[document, id]
         for value in re.finditer(r'(?<![\w-])(\w+)\s*=\s*"((?:[^"\\]|\\.)*)"', entry):
             key = value[1]
@@ -149,7 +155,9 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
     if text in ("up", "down"):
         yield 0, len(text), "down" if text == "up" else "up"
         return
-    names = r"(?:[Ff]igures?|[Ss]ections?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+    names = (
+        r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+    )
     skipped = [
         m.span() for m in re.finditer(rf"{names}|\\[a-zA-Z]+|\{{\w+[^}}]*\}}|_\{{[^}}]*\}}|_\w+|\^\{{?-?\d+\}}?", text)
     ]
@@ -163,7 +171,10 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
 
 
 def _sites(tree: ast.Module) -> Iterator[tuple[ast.AST, str, str]]:
-    """(node, function, kind) of everything worth altering inside functions: numbers, signs, operators."""
+    """(node, function, kind) of everything worth altering: numbers, signs, operators; a module's constants too."""
+    for node in (n for top in tree.body if not isinstance(top, ast.FunctionDef | ast.ClassDef) for n in ast.walk(top)):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Rational":
+            yield node.args[0], "constants", "number"
     for function in (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)):
         skipped: set[ast.AST] = set()
         for node in ast.walk(function):
@@ -253,13 +264,19 @@ def input_mutants(root: Path) -> Iterator[Mutant]:
                         yield Mutant("input", where, a, a + len(old_json), new_json, what, (id,), (id,))
 
 
-def importers(root: Path, module: str, folder: str) -> list[str]:
-    """Files below `folder` that need `module`, directly or through first-party modules, the nearest first."""
+def needs_of(root: Path) -> dict[str, frozenset[str]]:
+    """What each module of the sources imports."""
     source = root / "src"
-    needs: dict[str, set[str]] = {}
+    found = {}
     for path in source.rglob("*.py"):
         name = ".".join(path.relative_to(source).with_suffix("").parts).removesuffix(".__init__")
-        needs[name] = _imports(path.read_text(encoding="utf-8"))
+        found[name] = _imports(path.read_text(encoding="utf-8"))
+    return found
+
+
+def importers(root: Path, module: str, folder: str) -> list[str]:
+    """Files below `folder` that need `module`, directly or through first-party modules, the nearest first."""
+    needs = needs_of(root)
     level, distance = {module}, {module: 0}
     while level:
         level = {n for n, used in needs.items() if n not in distance and used & level}
@@ -276,15 +293,16 @@ def importers(root: Path, module: str, folder: str) -> list[str]:
     return [name for _, name in sorted(ranked)]
 
 
-def _imports(text: str) -> set[str]:
+@cache
+def _imports(text: str) -> frozenset[str]:
     found: set[str] = set()
     try:
         tree = ast.parse(text)
     except SyntaxError:
-        return found
+        return frozenset()
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             found |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    return found
+    return frozenset(found)

@@ -191,9 +191,9 @@ def diff(project: Project, ref: str, form: str, reports: Path | None, pictures: 
     changes = difference.difference(project, ref)
     say(difference.as_markdown(changes, ref) if form == "md" else difference.as_text(changes, ref))
     if reports is not None:
-        from notebook_reports.pages.changed_pages import changed, told
+        from notebook_reports.pages.changed_pages import changed, changes_told
 
-        say(told(changed(reports, project.reports, pictures), form))
+        say(changes_told(changed(reports, project.reports, pictures), form))
     sys.exit(1 if any(change.moved for change in changes) else 0)
 
 

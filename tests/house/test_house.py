@@ -85,19 +85,41 @@ def test_every_error_of_ours_is_one_of_ours(path):
     assert not wrong
 
 
-TWICE = {"Figure", "Grid", "Item", "Listing", "Problem", "Reading", "Rule", "Text"}
-"""Names that a block of a report (`export/model.py`) or a reader of the press shares with another class."""
-
-
 def test_no_two_public_classes_have_one_name():
     where = defaultdict(list)
     for path in MODULES:
         for node in syntax(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 where[node.name].append(shown(path))
-    twice = {name: places for name, places in where.items() if len(places) > 1}
-    assert set(twice) == TWICE, twice
-    assert all(len(places) == 2 and any("notebook_reports/" in p for p in places) for places in twice.values())
+    assert {name: places for name, places in where.items() if len(places) > 1} == {}
+
+
+def test_a_function_that_is_imported_by_its_name_has_that_name_alone():
+    """`from m import f` in one module and `from n import f` in another are one f."""
+    functions = {
+        ".".join(path.relative_to(SOURCE).with_suffix("").parts): {
+            node.name for node in syntax(path).body if isinstance(node, ast.FunctionDef)
+        }
+        for path in MODULES
+    }
+    where = defaultdict(set)
+    for path in MODULES:
+        for node in ast.walk(syntax(path)):
+            if isinstance(node, ast.ImportFrom) and node.module in functions:
+                for name in {alias.name for alias in node.names} & functions[node.module]:
+                    where[name].add(node.module)
+    assert {name: places for name, places in where.items() if len(places) > 1} == {}
+
+
+GENERAL = {"run", "exact", "coefficients"}
+"""Names that fit so many functions that they say nothing: each has a name of its own for what it runs or computes."""
+
+
+def test_a_name_says_what_is_run_or_computed():
+    for path in MODULES:
+        assert path.stem == "run" or path.stem not in GENERAL, path
+        found = {node.name for node in syntax(path).body if isinstance(node, ast.FunctionDef)} & GENERAL
+        assert not found or shown(path) == "derivations/algebra/delay_polynomials.py", f"{shown(path)}: {found}"
 
 
 @pytest.mark.parametrize("path", MODULES, ids=shown)

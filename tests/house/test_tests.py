@@ -16,6 +16,7 @@ OF_EVERYTHING = {"house", "notebooks", "packaging", "tools"}  # the rules, the n
 FILES = [p for p in sorted(TESTS.rglob("test_*.py")) if p.relative_to(TESTS).parts[0] not in OF_EVERYTHING]
 
 
+@cache
 def imported_by(test: Path) -> set[str]:
     """The modules of ours that a test imports, wherever in it."""
     found = set()

@@ -144,7 +144,7 @@ def test_python_control_and_back(done):
 
 def test_the_relay_finds_the_ultimate_point_and_tunes(done):
     names, _ = done
-    from loopbook.process.frequency_response import ultimate
+    from loopbook.loop.ultimate_point import ultimate
 
     point = ultimate(names["P"])
     assert names["seen"].data.T180 == pytest.approx(point.T180, rel=0.05)

@@ -130,6 +130,27 @@ def no_bare_prints(source):
             yield f"cell {cell.number} prints; show a Table, an equation or a sentence"
 
 
+def evidence_of(call: ast.Call) -> Iterator[tuple[str, ast.expr]]:
+    """(claim, evidence) of a call of `claim` or `claims`, as far as they stand in it."""
+    name = getattr(call.func, "attr", "")
+    if name == "claims" and call.args and isinstance(call.args[0], ast.Dict):
+        for key, value in zip(call.args[0].keys, call.args[0].values, strict=True):
+            if key is not None and isinstance(value, ast.Tuple) and len(value.elts) == 2:
+                yield ast.unparse(key), value.elts[1]
+    if name == "claim":
+        named = [k.value for k in call.keywords if k.arg == "evidence"]
+        yield ast.unparse(call.args[0]), (call.args[2:] or named)[0]
+
+
+@rule
+def evidence_is_computed(source):
+    for cell in code(source):
+        for node in ast.walk(tree(cell.text)):
+            for claim, evidence in evidence_of(node) if isinstance(node, ast.Call) else ():
+                if isinstance(evidence, ast.Constant):
+                    yield f"cell {cell.number}: the evidence of {claim} says the same whatever the outcome"
+
+
 @rule
 def honest_parameters(source):
     try:

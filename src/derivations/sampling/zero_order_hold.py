@@ -67,9 +67,12 @@ def modes(G: sp.Expr, s: sp.Symbol = S, t: sp.Symbol = T) -> dict[sp.Expr, sp.Ex
     >>> modes(1 / (S + a)), modes(1 / (S + a) ** 2)
     ({-a: 1}, {-a: t})
     """
-    found = {}
-    for pole, order in _poles(G, s).items():
-        regular = sp.cancel(sp.together(G) * (s - pole) ** order) * sp.exp(s * t)
+    found, poles = {}, _poles(G, s)
+    num, den = sp.fraction(sp.cancel(sp.together(G)))
+    lead = sp.LC(den, s)
+    for pole, order in poles.items():
+        others = sp.Mul(*((s - other) ** times for other, times in poles.items() if other != pole))
+        regular = num / (lead * others) * sp.exp(s * t)
         residue = sp.diff(regular, s, order - 1) / sp.factorial(order - 1)
         found[pole] = sp.expand(sp.expand(residue * sp.exp(-s * t)).subs(s, pole))
     return found
@@ -103,11 +106,14 @@ def zero_order_hold(
     """Sample G(s) e^(-Ls), L = (whole + part) h, with a zero-order hold.
 
     G: strictly proper rational function of s, symbolic or exact. h: sampling interval, s, > 0. whole: 0, 1, 2, ....
-    part: 0 <= part < 1, a number or a symbol. Raises SamplingError for what is out of these ranges.
+    part: 0 <= part < 1, a number or a symbol. Symbols without assumptions stand for real numbers, h for a positive one.
+    Complex pairs of poles give cosines and sines. Raises SamplingError for what is out of these ranges.
 
     >>> first_order = zero_order_hold(1 / (1 + S * sp.Symbol("T", positive=True)), sp.Symbol("h", positive=True))
     >>> first_order.coefficients
     {'a_1': -exp(-h/T), 'b_1': 1 - exp(-h/T)}
+    >>> zero_order_hold(1 / (S**2 + 1), sp.pi / 2).coefficients
+    {'a_1': 0, 'a_2': 1, 'b_1': 1, 'b_2': 1}
     """
     h, part = sp.sympify(h, strict=True), sp.sympify(part, strict=True)
     if h.is_positive is False or h.has(sp.Float):
@@ -116,6 +122,12 @@ def zero_order_hold(
         raise SamplingError(f"whole = {whole}: the whole samples of dead time must be 0, 1, 2, ...")
     if part.is_number and not (0 <= part < 1):
         raise SamplingError(f"part = {part}: the fraction of a sample of dead time must lie in [0, 1)")
+    G = sp.sympify(G, strict=True)
+    plain = _without_assumptions((G, h, part), s, positive=h)
+    if plain:
+        found = zero_order_hold(G.subs(plain), h.subs(plain), whole, part.subs(plain), s, z)
+        back = {dummy: symbol for symbol, dummy in plain.items()}
+        return Sampled(found.A.subs(back), found.B.subs(back), h, whole, part, z)
     poles = _poles(G, s)
     x = {p: sp.Dummy(f"x{i}") for i, p in enumerate(poles) if p != 0}  # e^(ph)
     y = {p: sp.Dummy(f"y{i}") if part != 0 else sp.S.One for i, p in enumerate(x)}  # e^(-p part h)
@@ -127,8 +139,11 @@ def zero_order_hold(
     steps = [area(i - whole) for i in range(last + 1)]
     pulse = [sp.S.Zero] + [steps[i] - steps[i - 1] for i in range(1, last + 1)]
     b = [sum((a[j] * pulse[i - j] for j in range(min(i, len(a) - 1) + 1)), sp.S.Zero) for i in range(last + 1)]
+    oscillating = [p for p in x if p.has(sp.I) and sp.im(p) != 0]
+    if oscillating:
+        a, b = ([_of_real_modes(c, x, y, oscillating, h, part) for c in values] for values in (a, b))
     back = {x[p]: sp.exp(p * h) for p in x} | {y[p]: sp.exp(-p * part * h) for p in x if part != 0}
-    a, b = ([_real(factored(c).subs(back)) for c in values] for values in (a, b))
+    a, b = ([c.subs(back) if oscillating else factored(c).subs(back) for c in values] for values in (a, b))
     return Sampled(polynomial(a, z), polynomial(b, z), h, whole, part, z)
 
 
@@ -158,9 +173,54 @@ def _step_response(
     return lambda n: sum((integral(p, r, n) for p, r in found.items()), sp.S.Zero) if n > 0 else sp.S.Zero
 
 
-def _real(c: sp.Expr) -> sp.Expr:
-    """Pairs of complex exponentials as cosine and sine."""
-    return sp.trigsimp(sp.expand_complex(c)) if c.has(sp.I) else c
+def _without_assumptions(given: tuple[sp.Expr, ...], s: sp.Symbol, positive: sp.Expr) -> dict[sp.Symbol, sp.Symbol]:
+    """For each symbol of which nothing is known: one of the same name that is real, or positive where it is h."""
+    free = set().union(*(e.free_symbols for e in given)) - {s}
+    unknown = sorted((x for x in free if x.is_real is None), key=str)
+    return {x: sp.Dummy(x.name, **({"positive": True} if x == positive else {"real": True})) for x in unknown}
+
+
+def _of_real_modes(c: sp.Expr, x: dict, y: dict, oscillating: list[sp.Expr], h: sp.Expr, part: sp.Expr) -> sp.Expr:
+    """A coefficient in which e^(ph) and e^(-p part h) of complex poles p are decay times cosine and sine.
+
+    Conjugate poles stand in it alike, so that its imaginary part vanishes as a polynomial in real symbols.
+    """
+    inside: dict[sp.Symbol, sp.Expr] = {}
+    back: dict[sp.Symbol, sp.Expr] = {}
+    for p in oscillating:
+        decay, turn = sp.re(p), sp.im(p)
+        sign = -1 if turn.could_extract_minus_sign() else 1
+        speed = sign * turn
+        for symbol, time in ((x[p], h), (y[p], -part * h)):
+            if symbol == 1:
+                continue
+            key = sp.exp(decay * time), sp.cos(speed * time), sp.sin(speed * time)
+            size, cosine, sine = (_named(back, e) for e in key)
+            inside[symbol] = size * (cosine + sp.I * sign * sine)
+    real = sp.expand(sp.expand_complex(sp.expand(c)).subs(inside)) if not c.is_number else sp.expand_complex(c)
+    real = sp.expand(sum(_real_part(term) for term in sp.Add.make_args(real)))
+    sines = {symbol: e for symbol, e in back.items() if isinstance(e, sp.sin)}
+    for symbol, e in sines.items():
+        cosine = next(c for c, other in back.items() if other == sp.cos(e.args[0]))
+        real = sp.expand(sp.rem(real, symbol**2 + cosine**2 - 1, symbol)) if real.has(symbol) else real
+    return sp.factor_terms(real).subs(back)
+
+
+def _named(back: dict[sp.Symbol, sp.Expr], e: sp.Expr) -> sp.Expr:
+    """A real symbol for the expression, the same one for the same expression; numbers stay."""
+    if e.is_number and e in (0, 1, -1):
+        return e
+    for symbol, other in back.items():
+        if other == e:
+            return symbol
+    symbol = sp.Dummy(f"m{len(back)}", real=True)
+    back[symbol] = e
+    return symbol
+
+
+def _real_part(term: sp.Expr) -> sp.Expr:
+    number, rest = term.as_independent(*(f for f in term.atoms(sp.Dummy)), as_Add=False)
+    return sp.re(number) * rest
 
 
 def dead_time_in_samples(L: sp.Expr, h: sp.Expr) -> tuple[int, sp.Expr]:

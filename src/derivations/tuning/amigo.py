@@ -23,6 +23,22 @@ SOURCE = "Åström and Hägglund, Advanced PID control (2006); pid-report, secti
 AIM = "load, robustness M = 1.4"
 RELATIVE_DEAD_TIME = L / (L + T)
 
+Constants = tuple[Expr, ...]
+PI_STEP: dict[str, Constants] = {
+    "K": (Rational(15, 100), Rational(35, 100)),
+    "Ti": (Rational(35, 100), Rational(13), Rational(12), Rational(7)),
+}
+PID_STEP: dict[str, Constants] = {
+    "K": (Rational(20, 100), Rational(45, 100)),
+    "Ti": (Rational(40, 100), Rational(80, 100), Rational(10, 100)),
+    "Td": (Rational(50, 100), Rational(30, 100)),
+}
+PI_FREQUENCY: dict[str, Constants] = {"K": (Rational(16, 100),), "Ti": (Rational(450, 100),)}
+PID_FREQUENCY: dict[str, Constants] = {
+    "K": (Rational(30, 100), Rational(10, 100)),
+    "Ti": (Rational(60, 100), Rational(2)),
+    "Td": (Rational(15, 100), Rational(95, 100)),
+}
 SECOND_ORDER = {  # section 5.3.7: the weights of 1, T1/L1, T2/L1 and T1 T2/L1^2 in K, ki and kd
     "alpha": (Rational(19, 100), Rational(37, 100), Rational(18, 100), Rational(2, 100)),
     "beta": (Rational(48, 100), Rational(3, 100), Rational(-7, 10000), Rational(12, 10000)),
@@ -82,8 +98,8 @@ def _lag_dominated(least: Rational) -> tuple[Caution, ...]:
 
 
 @cache
-def pi_step() -> Rule:
-    """PI from a step response, section 5.3.3.
+def pi_step(K: Constants = PI_STEP["K"], Ti: Constants = PI_STEP["Ti"]) -> Rule:
+    """PI from a step response, section 5.3.3. The constants are those in print; others make the same formulas.
 
     >>> pi_step().K.subs({K_p: 1, T: 1, L: 1})
     1/4
@@ -91,16 +107,16 @@ def pi_step() -> Rule:
     return _published(
         *("step-pi", "step, PI", Takes.STEP, "5.3.3"),
         inputs=(K_p, T, L),
-        K=Rational(15, 100) / K_p + (Rational(35, 100) - L * T / (L + T) ** 2) * T / (K_p * L),
-        Ti=Rational(35, 100) * L + 13 * L * T**2 / (T**2 + 12 * L * T + 7 * L**2),
+        K=K[0] / K_p + (K[1] - L * T / (L + T) ** 2) * T / (K_p * L),
+        Ti=Ti[0] * L + Ti[1] * L * T**2 / (T**2 + Ti[2] * L * T + Ti[3] * L**2),
         measure=RELATIVE_DEAD_TIME,
         b_above=Rational(3, 10),
     )
 
 
 @cache
-def pid_step() -> Rule:
-    """PID from a step response, section 5.3.4.
+def pid_step(K: Constants = PID_STEP["K"], Ti: Constants = PID_STEP["Ti"], Td: Constants = PID_STEP["Td"]) -> Rule:
+    """PID from a step response, section 5.3.4. The constants are those in print; others make the same formulas.
 
     >>> pid_step().K.subs({K_p: 1, T: 1, L: 1})
     13/20
@@ -113,9 +129,9 @@ def pid_step() -> Rule:
     return _published(
         *("step-pid", "step, PID", Takes.STEP, "5.3.4", (conservative,)),
         inputs=(K_p, T, L),
-        K=(Rational(2, 10) + Rational(45, 100) * T / L) / K_p,
-        Ti=(Rational(4, 10) * L + Rational(8, 10) * T) / (L + Rational(1, 10) * T) * L,
-        Td=Rational(5, 10) * L * T / (Rational(3, 10) * L + T),
+        K=(K[0] + K[1] * T / L) / K_p,
+        Ti=(Ti[0] * L + Ti[1] * T) / (L + Ti[2] * T) * L,
+        Td=Td[0] * L * T / (Td[1] * L + T),
         measure=RELATIVE_DEAD_TIME,
         b_above=Rational(5, 10),
         good={"K": ("tau", Rational(3, 10)), "Ti": ("tau", Rational(2, 10)), "Td": ("tau", Rational(5, 10))},
@@ -123,8 +139,8 @@ def pid_step() -> Rule:
 
 
 @cache
-def pi_frequency() -> Rule:
-    """PI from one point of the frequency response, section 5.3.5; kappa = K_180/K_p.
+def pi_frequency(K: Constants = PI_FREQUENCY["K"], Ti: Constants = PI_FREQUENCY["Ti"]) -> Rule:
+    """PI from one point of the frequency response, section 5.3.5; kappa = K_180/K_p, constants as in print.
 
     >>> pi_frequency().Ti
     T_180/(9*kappa/2 + 1)
@@ -132,8 +148,8 @@ def pi_frequency() -> Rule:
     return _published(
         *("frequency-pi", "frequency, PI", Takes.FREQUENCY_AND_GAIN, "5.3.5"),
         inputs=(K_180, T_180, kappa),
-        K=Rational(16, 100) / K_180,
-        Ti=T_180 / (1 + Rational(45, 10) * kappa),
+        K=K[0] / K_180,
+        Ti=T_180 / (1 + Ti[0] * kappa),
         good=dict.fromkeys(("K", "Ti"), ("kappa", Rational(2, 10))),
         refusals=(TOO_LARGE,),
         extrapolates=_lag_dominated(Rational(2, 10)),
@@ -141,8 +157,10 @@ def pi_frequency() -> Rule:
 
 
 @cache
-def pid_frequency() -> Rule:
-    """PID from one point of the frequency response, section 5.3.6; kappa = K_180/K_p.
+def pid_frequency(
+    K: Constants = PID_FREQUENCY["K"], Ti: Constants = PID_FREQUENCY["Ti"], Td: Constants = PID_FREQUENCY["Td"]
+) -> Rule:
+    """PID from one point of the frequency response, section 5.3.6; kappa = K_180/K_p, constants as in print.
 
     >>> pid_frequency().Td.subs(kappa, 0)
     3*T_180/20
@@ -150,9 +168,9 @@ def pid_frequency() -> Rule:
     return _published(
         *("frequency-pid", "frequency, PID", Takes.FREQUENCY_AND_GAIN, "5.3.6"),
         inputs=(K_180, T_180, kappa),
-        K=(Rational(3, 10) - Rational(1, 10) * kappa**4) / K_180,
-        Ti=Rational(6, 10) / (1 + 2 * kappa) * T_180,
-        Td=Rational(15, 100) * (1 - kappa) / (1 - Rational(95, 100) * kappa) * T_180,
+        K=(K[0] - K[1] * kappa**4) / K_180,
+        Ti=Ti[0] / (1 + Ti[1] * kappa) * T_180,
+        Td=Td[0] * (1 - kappa) / (1 - Td[1] * kappa) * T_180,
         good=dict.fromkeys(("K", "Ti", "Td"), ("kappa", Rational(2, 10))),
         refusals=(TOO_LARGE,),
         extrapolates=_lag_dominated(Rational(2, 10)),

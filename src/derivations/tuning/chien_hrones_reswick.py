@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
-from sympy import Rational
+from sympy import Expr, Rational
 
 from derivations.tuning.letters import T_0, T, a, k
 from derivations.tuning.rule import NONE, OFF, Caution, Rule
@@ -45,18 +45,35 @@ def _cautions(kind: str) -> tuple[Caution, ...]:
     )
 
 
+SETS: dict[tuple[int, str], dict[str, tuple[Expr, Expr, Expr]]] = {
+    (0, "set-point"): {
+        "p": (Rational(30, 100) / a, NONE, OFF),
+        "pi": (Rational(35, 100) / a, Rational(120, 100) * T, OFF),
+        "pid": (Rational(60, 100) / a, T, Rational(50, 100) * T_0),
+    },
+    (20, "set-point"): {
+        "p": (Rational(70, 100) / a, NONE, OFF),
+        "pi": (Rational(60, 100) / a, T, OFF),
+        "pid": (Rational(95, 100) / a, Rational(140, 100) * T, Rational(47, 100) * T_0),
+    },
+    (0, "load"): {
+        "p": (Rational(30, 100) / a, NONE, OFF),
+        "pi": (Rational(60, 100) / a, Rational(400, 100) * T_0, OFF),
+        "pid": (Rational(95, 100) / a, Rational(240, 100) * T_0, Rational(42, 100) * T_0),
+    },
+    (20, "load"): {
+        "p": (Rational(70, 100) / a, NONE, OFF),
+        "pi": (Rational(70, 100) / a, Rational(230, 100) * T_0, OFF),
+        "pid": (Rational(120, 100) / a, Rational(200, 100) * T_0, Rational(42, 100) * T_0),
+    },
+}
+"""(K, Ti, Td) of the paper's four sets by (overshoot in %, what the response answers) and type; the article has two."""
+
+
 @cache
 def rules() -> tuple[Rule, ...]:
-    """Without overshoot and with 20 %, each P, PI and PID."""
+    """For the set-point, without overshoot and with 20 %, each P, PI and PID."""
     source = f"{PAPER}; {ARTICLE}, tables of the Chien-Hrones-Reswick method"
-    formulas: dict[tuple[int, str], tuple[sp.Expr, sp.Expr, sp.Expr]] = {
-        (0, "p"): (Rational(3, 10) / a, NONE, OFF),
-        (0, "pi"): (Rational(35, 100) / a, Rational(6, 5) * T, OFF),
-        (0, "pid"): (Rational(6, 10) / a, T, T_0 / 2),
-        (20, "p"): (Rational(7, 10) / a, NONE, OFF),
-        (20, "pi"): (Rational(6, 10) / a, T, OFF),
-        (20, "pid"): (Rational(95, 100) / a, Rational(14, 10) * T, Rational(47, 100) * T_0),
-    }
     return tuple(
         Rule(
             f"chr-{kind}-{overshoot}",
@@ -69,5 +86,7 @@ def rules() -> tuple[Rule, ...]:
             aim=f"set-point: {f'{overshoot} % overshoot' if overshoot else 'no overshoot'}",
             cautions=_cautions(kind),
         )
-        for (overshoot, kind), settings in formulas.items()
+        for (overshoot, step), row in SETS.items()
+        if step == "set-point"
+        for kind, settings in row.items()
     )

@@ -1,8 +1,8 @@
 """Lambda tuning: pole cancellation with a wanted closed-loop time constant.
 
-lambda-pi, lambda-pid: for a lag with dead time, the PID row with exp(-sL) by Padé of order 1. Robust for lambda >= T0;
-slow for loads where T is much longer than T0.
-first-order-pi: Ti = T without dead time; lambda is the closed loop's time constant, exactly, as
+lambda-pi, lambda-pid: for a lag with dead time, by `direct_synthesis`, PI with the tangent of the dead time and PID
+with Padé of order 1. Robust for lambda >= T0; slow for loads where T is much longer than T0.
+first-order-pi: the same without dead time; lambda is the closed loop's time constant, exactly, as
 `derivations.loop.first_order_loop` derives. first-order-pi-script: the same with lambda = i T, the dimensionless i that
 the article's script runs through.
 """
@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy as sp
 
+from derivations.tuning.direct_synthesis import by_pade, by_tangent, s, standard
 from derivations.tuning.letters import T_0, T, k, lam
 from derivations.tuning.rule import Caution, Rule
 from derivations.tuning.takes import Takes
@@ -46,19 +47,20 @@ def rules() -> tuple[Rule, ...]:
         "defaults": {lam: sp.Max(T, T_0)},
     }
     alone: dict[str, Any] = {"aim": AIM, "refusals": (DEAD_TIME,)}
-    half = T_0 / 2
-    pid = ((half + T) / (k * (half + lam)), T + half, T * T_0 / (T_0 + 2 * T))
+    lag = 1 + s * T
+    pi, pid = standard(by_tangent(lag)), standard(by_pade(lag))
+    gain, integral, _ = standard(by_tangent(lag).subs(T_0, 0))
     return (
-        Rule("lambda-pi", "lambda, PI", Takes.STEP, x, T / (k * (lam + T_0)), T, **dead),
+        Rule("lambda-pi", "lambda, PI", Takes.STEP, x, *pi, **dead),
         Rule("lambda-pid", "lambda, PID", Takes.STEP, x, *pid, **dead),
         Rule(
-            *("first-order-pi", "pole cancellation, PI", Takes.STEP, (k, T, lam), T / (lam * k), T),
+            *("first-order-pi", "pole cancellation, PI", Takes.STEP, (k, T, lam), gain, integral),
             source=f"{ARTICLE}, section on the first-order plant",
             cautions=(MODE,),
             **alone,
         ),
         Rule(
-            *("first-order-pi-script", "pole cancellation, PI", Takes.STEP, (k, T, i), T / (i * T * k), T),
+            *("first-order-pi-script", "pole cancellation, PI", Takes.STEP, (k, T, i), gain.subs(lam, i * T), integral),
             source=f"{ARTICLE}, file pid_script1.m",
             variant_of="first-order-pi",
             **alone,

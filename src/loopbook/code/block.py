@@ -136,6 +136,6 @@ def identifier(text: str) -> str:
     return f"{name}_pid" if keyword.iskeyword(name) else name
 
 
-def finite(value: float, infinite: float = UNLIMITED) -> float:
+def checked_finite(value: float, infinite: float = UNLIMITED) -> float:
     """The number that stands for a setting where there is no infinity."""
     return math.copysign(infinite, value) if math.isinf(value) else value

@@ -31,14 +31,14 @@ def code(
     are there are written anew. Exit codes: 0 written, 2 the JSON or an option is wrong.
     """
     from loopbook.code import CodeError, regulator_from_json
-    from loopbook.code.files import written
+    from loopbook.code.files import write_controller
 
     chosen = list(dict.fromkeys(t.strip() for t in targets.split(",") if t.strip()))
     real = "float" if single else "double"
     try:
         block = regulator_from_json(regulator, name=name, compensated=compensated)
         extras = {"arduino": arduino, "test_main": test_main}
-        made = written(block, chosen, output or regulator.parent, real=real, named=bool(name), **extras)
+        made = write_controller(block, chosen, output or regulator.parent, real=real, named=bool(name), **extras)
     except CodeError as error:
         raise click.UsageError(str(error)) from None
     except OSError as error:

@@ -13,7 +13,9 @@ from loopbook.code.from_json import regulator_from_json
 from loopbook.code.languages import languages
 
 
-def written(block: Block, targets: Sequence[str], output: Path, *, named: bool = False, **options: Any) -> list[Path]:
+def write_controller(
+    block: Block, targets: Sequence[str], output: Path, *, named: bool = False, **options: Any
+) -> list[Path]:
     """Write a controller in these languages.
 
     output: a folder, or for one target the main file, whose stem then names the rest and, unless it is ``named``

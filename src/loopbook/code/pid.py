@@ -7,7 +7,7 @@ from derivations.programs import full_pid, pid_code, start
 from loopbook.code.block import Block, BlockSignal
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings
-from loopbook.numerics.exact import function
+from loopbook.numerics.rational_numbers import function
 
 NAMES = {"K": "K", "Ti": "T_i", "Td": "T_d", "Tf": "T_f", "b": "b", "c": "c", "Tt": "T_t", "h": "h"}
 UNNAMED = BlockSignal()

@@ -9,7 +9,7 @@ With I = 50 in single precision ulp(I) is 3.8e-6: an increment of 1e-7 moves not
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -38,7 +38,7 @@ def dead_error(block: Block, integral: float, real: str = "float") -> float:
     s = block.settings()
     if not s["Ti"] or math.isinf(s["Ti"]):
         return 0.0
-    ulp = float(np.spacing(np.abs(TYPES[real](integral))))
+    ulp = float(np.spacing(np.asarray(abs(integral), TYPES[real])))
     return ulp / 2 * s["Ti"] / (abs(s["K"]) * s["h"])
 
 
@@ -55,12 +55,14 @@ def run_error(
     The exact run uses fractions for the same settings and signals, rounded once to the type. Its numbers grow with
     every sample: a few hundred samples take about a second.
     """
-    number = TYPES[real]
+    number: Callable[[float], Any] = TYPES[real]
     finite = dict(block.settings())
     if math.isinf(finite["Ti"]):
         finite["Ti"] = 0.0
     rounded = {n: number(v) for n, v in finite.items()}
-    exact = {n: Fraction(float(v)) if math.isfinite(v) else float(v) for n, v in rounded.items()}
+    exact: dict[str, Fraction | float] = {
+        n: Fraction(float(v)) if math.isfinite(v) else float(v) for n, v in rounded.items()
+    }
     loops: list[tuple[Any, Any]] = [
         (controller(block, number, **rounded), number),
         (controller(block, lambda v: v, **exact), Fraction),
@@ -138,7 +140,7 @@ def cost(
         integral = loop.I if block.rest is not None else max(limits, default=1.0)
     dead = dead_error(block, integral, real)
     width = s["u_high"] - s["u_low"] if len(limits) == 2 else math.nan
-    found = run_error(block, *run, block.rest, real) if run else None
+    found = run_error(block, *run, block.rest, real) if run and block.rest else None
     steps = 2**bits - 1
     advice: tuple[str, ...] = ()
     if dead > SHARE * span and block.program.has("step"):
@@ -162,12 +164,14 @@ def creeping(block: Block, error: float, samples: int) -> dict[str, np.ndarray]:
         "single, compensated": (True, np.float32),
         "double precision": (False, np.float64),
     }
-    return {name: _integrals(block, error, samples, *kind) for name, kind in kinds.items()}
+    return {name: _integrals(block, block.rest, error, samples, *kind) for name, kind in kinds.items()}
 
 
-def _integrals(block: Block, error: float, samples: int, compensated: bool, number: type) -> np.ndarray:
+def _integrals(
+    block: Block, rest: tuple[float, float], error: float, samples: int, compensated: bool, number: type
+) -> np.ndarray:
     loop = controller(replace(block, program=full_pid.program(compensated)), number)
-    u, y = (number(v) for v in block.rest)
+    u, y = (number(v) for v in rest)
     zero = number(0)
     loop.start(y, y, u, zero)
     loop.step(y, y, zero)

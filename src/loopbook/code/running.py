@@ -1,5 +1,6 @@
 """An emitted controller that runs in Python: what a device does, sample by sample."""
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -14,7 +15,7 @@ def _class(text: str) -> type:
     return next(value for key, value in space.items() if isinstance(value, type))
 
 
-def controller(block: Block, number: type = float, **settings: Any) -> Any:
+def controller(block: Block, number: Callable[[Any], Any] = float, **settings: Any) -> Any:
     """A controller with the block's settings, each made with ``number`` (float, Fraction, numpy.float32).
 
     settings: in place of those of the block, by spoken name. The object has the operations of the program as methods.

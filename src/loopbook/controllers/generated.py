@@ -103,7 +103,7 @@ def step(rule: str, rate: bool) -> Callable:
 
 
 @cache
-def run(rule: str, rate: bool) -> Callable:
+def run_samples(rule: str, rate: bool) -> Callable:
     """Many samples: run(gains, state, y, y_sp, out) fills out and returns the state (I, x, v, u).
 
     All y and y_sp must be finite; states are local variables.

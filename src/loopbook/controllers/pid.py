@@ -10,6 +10,7 @@ The functions that run are written from the derived expressions, see `loopbook.c
 
 import warnings
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings, SettingError
+from loopbook.numerics.real_numbers import plain_number
 
 AUTO, MANUAL = "auto", "manual"
 
@@ -34,12 +36,22 @@ class BadMeasurementWarning(UserWarning):
     """A measurement was skipped and the last output held (``on_bad="hold"``)."""
 
 
+def _numbers(name: str, signal: Any) -> list[int | float | Fraction]:
+    values = signal.tolist() if isinstance(signal, np.ndarray) else list(signal)
+    if not {type(value) for value in values} <= {int, float, Fraction}:
+        if np.ndim(signal) != 1:
+            raise ValueError(f"{name} has {np.ndim(signal)} dimensions: a row of numbers is expected")
+        values = [plain_number(value) for value in values]
+    return values
+
+
 class Pid:
     """A PID controller with its state.
 
     settings: `PidSettings`, all numbers floats or all exact (int, Fraction). I: start value of the integral part [u].
     x: start value of the derivative's state [u]; None: at the first sample the derivative starts from rest, D = 0.
-    on_bad: "raise" raises `BadMeasurement` for a y or y_sp that is not finite; "hold" warns and holds the last output.
+    on_bad: "raise" raises `BadMeasurement` for a y or y_sp that is not finite; "hold" warns and holds the last output,
+    before any sample I within the limits. Numbers of other types (NumPy, Decimal) are taken as Python's.
     Attributes: I, x, u (last output), v (last unlimited output), mode ("auto" or "manual"), settings.
 
     >>> pid = Pid(PidSettings(K=2.0, Ti=4.0, h=1.0, u_low=0.0, u_high=3.0))
@@ -56,7 +68,7 @@ class Pid:
             raise SettingError("on_bad", on_bad, "raise or hold")
         self.on_bad = on_bad
         self.mode = AUTO
-        self.I, self.x = I, 0 if x is None else x
+        self.I, self.x = plain_number(I), 0 if x is None else plain_number(x)
         self._started = x is not None
         self.u = self.v = None
         self._y_sp = self._y = None
@@ -76,7 +88,9 @@ class Pid:
 
     def step(self, y: Any, y_sp: Any) -> Any:
         """One sample: the output u for the measurement and the set-point of this sample."""
-        if y - y != 0 or y_sp - y_sp != 0:  # true for NaN and for infinities
+        if type(y) is not float or type(y_sp) is not float:
+            y, y_sp = plain_number(y), plain_number(y_sp)
+        if y - y != y_sp - y_sp:  # 0 for numbers; NaN, which differs from all, for NaN and infinities
             return self._bad(y, y_sp)
         self._y_sp, self._y = y_sp, y
         if not self._started:
@@ -93,6 +107,9 @@ class Pid:
         error = BadMeasurement(name, value, self.u)
         if self.on_bad == "raise":
             raise error
+        if self.u is None:
+            self.u = min(max(self.I, self._low), self._high)
+            error = BadMeasurement(name, value, self.u)
         warnings.warn(str(error), BadMeasurementWarning, stacklevel=3)
         return self.u
 
@@ -158,14 +175,15 @@ class Pid:
         """Many automatic samples over recorded signals, fast.
 
         y: measurements; y_sp: one set-point, or one per measurement. out: array or list to fill, default a new array
-        (floats) or list (anything else). Same results as `step` called for each, bit by bit.
+        where y is an array or an output is a float, else a list of exact numbers. Same results as `step` called for
+        each, bit by bit.
         Raises ValueError in manual mode or for signals of different length; a bad measurement as `step` does.
         """
         if self.mode == MANUAL:
             raise ValueError("run() plays automatic samples; the controller is in manual: call auto() first")
-        y = y.tolist() if isinstance(y, np.ndarray) else list(y)
-        constant = not isinstance(y_sp, Sequence | np.ndarray)
-        y_sp = [y_sp] * len(y) if constant else y_sp.tolist() if isinstance(y_sp, np.ndarray) else list(y_sp)
+        of_array = isinstance(y, np.ndarray)
+        y = _numbers("y", y)
+        y_sp = [plain_number(y_sp)] * len(y) if np.ndim(y_sp) == 0 else _numbers("y_sp", y_sp)
         if len(y_sp) != len(y):
             raise ValueError(f"{len(y_sp)} set-points for {len(y)} measurements: as many of both are needed")
         finite = np.isfinite(np.asarray(y, float)) & np.isfinite(np.asarray(y_sp, float))
@@ -181,7 +199,7 @@ class Pid:
             self._play(y, y_sp, outputs, done + 1, stop)
             done = stop
         if out is None:
-            return np.array(outputs) if all(isinstance(u, float) for u in outputs) else outputs
+            return np.array(outputs) if of_array or any(isinstance(u, float) for u in outputs) else outputs
         out[:] = outputs
         return out
 
@@ -189,7 +207,7 @@ class Pid:
         if start >= stop:
             return
         s = self.settings
-        loop = generated.run(s.anti_windup, s.rate is not None)
+        loop = generated.run_samples(s.anti_windup, s.rate is not None)
         numbers = (*self._gains, self._low, self._high, self._step)
         part = [None] * (stop - start)
         state = (self.I, self.x, self.v, self.u)

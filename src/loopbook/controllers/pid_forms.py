@@ -10,17 +10,29 @@ weighs the reference in the proportional part. Ti = inf means no integral action
 """
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import Any, cast
 
 import numpy as np
 
 from derivations.errors import LoopbookError
 from loopbook.controllers.regulator import Regulator
+from loopbook.numerics.real_numbers import plain_number
 
 
 class FormError(LoopbookError):
     """Parameters that no controller of this form can have, or a conversion that does not exist."""
+
+
+def _python_numbers(form: "PidParallel | PidStandard | PidSeries") -> None:
+    """The parameters as Python's own numbers, whatever they came as; None stays."""
+    for part in fields(form):
+        value = getattr(form, part.name)
+        if value is not None or part.default is not None:
+            try:
+                object.__setattr__(form, part.name, plain_number(value))
+            except TypeError as error:
+                raise FormError(f"{part.name}: {error}") from None
 
 
 def _finite(**named: float) -> None:
@@ -34,6 +46,10 @@ def _time(name: str, value: float, infinite: bool = False) -> None:
         raise FormError(f"{name} = {value!r} s must be a time, zero or longer{' or inf' if infinite else ''}")
 
 
+LEFT_OUT = cast(float, None)
+"""For N or Tf: it follows from the other one, and is a number as soon as the form is made."""
+
+
 class _Form:
     """What the three forms share: all of it follows from the parallel parameters."""
 
@@ -43,14 +59,15 @@ class _Form:
     def regulator(self) -> Regulator:
         """The polynomials T, S, R of R u = T r - S y."""
         p = self.parallel()
-        Tf = p.Tf if p.D else 0.0
+        P, I, D, b_of_r, c_of_r = map(float, (p.P, p.I, p.D, p.b, p.c))
+        Tf = float(p.Tf) if D else 0.0
         filter_, filter_s = np.array([0.0, Tf, 1.0]), np.array([Tf, 1.0, 0.0])
-        R, s_R = (filter_s, np.array([1.0, 0.0, 0.0])) if p.I else (filter_, np.array([0.0, 1.0, 0.0]))
+        R, s_R = (filter_s, np.array([1.0, 0.0, 0.0])) if I else (filter_, np.array([0.0, 1.0, 0.0]))
 
         def numerator(b: float, c: float) -> tuple[float, ...]:
-            return tuple(b * p.P * R + p.I * filter_ + c * p.D * s_R)
+            return tuple((b * P * R + I * filter_ + c * D * s_R).tolist())
 
-        return Regulator(numerator(p.b, p.c), numerator(1.0, 1.0), tuple(R))
+        return Regulator(numerator(b_of_r, c_of_r), numerator(1.0, 1.0), tuple(R.tolist()))
 
     def transfer(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """(num, den) of the feedback path C(s) = -u/y, which is the error path too where b = c = 1.
@@ -89,6 +106,7 @@ class PidParallel(_Form):
     c: float = 1.0
 
     def __post_init__(self) -> None:
+        _python_numbers(self)
         _finite(P=self.P, I=self.I, D=self.D, b=self.b, c=self.c)
         if not self.N > 0:
             raise FormError(f"N = {self.N!r} rad/s must be positive: it is the pole of the derivative's filter")
@@ -134,10 +152,11 @@ class PidStandard(_Form):
     Td: float = 0.0
     b: float = 1.0
     c: float = 0.0
-    N: float | None = None
-    Tf: float | None = None
+    N: float = LEFT_OUT
+    Tf: float = LEFT_OUT
 
     def __post_init__(self) -> None:
+        _python_numbers(self)
         _finite(K=self.K, b=self.b, c=self.c)
         _time("Ti", self.Ti, infinite=True)
         _time("Td", self.Td)
@@ -203,10 +222,11 @@ class PidSeries(_Form):
     K: float
     Ti: float = math.inf
     Td: float = 0.0
-    N: float | None = None
-    Tf: float | None = None
+    N: float = LEFT_OUT
+    Tf: float = LEFT_OUT
 
     def __post_init__(self) -> None:
+        _python_numbers(self)
         checked = PidStandard(self.K, self.Ti, self.Td, N=self.N, Tf=self.Tf)
         object.__setattr__(self, "N", checked.N)
         object.__setattr__(self, "Tf", checked.Tf)

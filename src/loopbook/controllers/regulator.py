@@ -12,7 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.process.transfer_function import Process, ProcessError, coefficients
+from loopbook.numerics.real_numbers import plain_number
+from loopbook.process.transfer_function import Process, ProcessError, checked_coefficients
+
+ON_AXIS = 1e-10
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Regulator:
 
     def __post_init__(self) -> None:
         for name in ("T", "S", "R"):
-            object.__setattr__(self, name, coefficients(getattr(self, name), name))
+            object.__setattr__(self, name, checked_coefficients(getattr(self, name), name))
         if self.R == (0.0,):
             raise ProcessError("R is zero: a regulator needs a denominator")
 
@@ -53,14 +56,16 @@ class Regulator:
             if regulator.delay:
                 raise ProcessError(f"the regulator has a dead time of {regulator.delay} s: put it into the process")
             return cls.one_dof(regulator.num, regulator.den)
-        if isinstance(regulator, int | float | np.floating):
-            return cls.one_dof((float(regulator),), (1.0,))
         if hasattr(regulator, "num") and hasattr(regulator, "ninputs"):
             return cls.of(Process.from_control(regulator))
-        raise ProcessError(
-            f"{type(regulator).__name__} is no regulator: give a Regulator, a PID form of "
-            "loopbook.controllers.pid_forms or a number"
-        )
+        try:
+            gain = float(plain_number(regulator))
+        except TypeError:
+            kind = type(regulator).__name__
+            raise ProcessError(
+                f"{kind} is no regulator: give a Regulator, a PID form of loopbook.controllers.pid_forms or a number"
+            ) from None
+        return cls.one_dof((gain,), (1.0,))
 
     def feedback(self, s: Any) -> Any:
         """S/R at complex s: from the measurement, with the sign turned, to u."""
@@ -79,4 +84,4 @@ class Regulator:
     def unstable_poles(self) -> np.ndarray:
         """The poles with a positive real part: not empty where the regulator by itself is unstable."""
         roots = np.roots(self.R).astype(complex)
-        return roots[roots.real > 1e-10 * np.maximum(abs(roots), 1e-300)]
+        return roots[roots.real > ON_AXIS * abs(roots)]

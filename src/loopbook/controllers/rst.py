@@ -20,7 +20,9 @@ import numpy as np
 from derivations.errors import LoopbookError
 from derivations.pole_placement.rst_law import law
 from loopbook.numerics import polynomial_text
+from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.numerics.recursion import recursion
+from loopbook.numerics.units import CANCELLED
 
 Polynomial = Sequence[float] | np.ndarray
 NEAR = 1e-8
@@ -31,7 +33,10 @@ class PlacementError(LoopbookError):
 
 
 def _row(p: Polynomial, name: str) -> np.ndarray:
-    row = np.atleast_1d(np.asarray(p, dtype=float))
+    try:
+        row = np.array([float(plain_number(c)) for c in np.atleast_1d(np.asarray(p, dtype=object))])
+    except (TypeError, OverflowError):
+        row = np.zeros(0)
     if row.ndim != 1 or not row.size or not np.isfinite(row).all():
         raise PlacementError(f"{name} = {p!r}: finite coefficients of z^0, z^-1, z^-2, ... are expected")
     last = np.flatnonzero(row)
@@ -39,8 +44,17 @@ def _row(p: Polynomial, name: str) -> np.ndarray:
 
 
 def zeros_of(p: Polynomial) -> np.ndarray:
-    """The z where p0 + p1 z^-1 + ... = 0, without the z at infinity of leading zeros (delays)."""
-    return np.roots(np.trim_zeros(np.asarray(p, dtype=float), "f")).astype(complex)
+    """The z where p0 + p1 z^-1 + ... = 0, without the z at infinity of leading zeros (delays).
+
+    A root at z = 1, where the coefficients add up to nothing but rounding, is exactly 1 and divided out first.
+
+    >>> zeros_of([1, -2, 1])
+    array([1.+0.j, 1.+0.j])
+    """
+    rest, ones = np.trim_zeros(np.asarray(p, dtype=float), "f"), 0
+    while len(rest) > 1 and abs(rest.sum()) <= CANCELLED * np.abs(rest).sum():
+        rest, ones = np.cumsum(rest)[:-1], ones + 1
+    return np.append(np.ones(ones), np.roots(rest)).astype(complex)
 
 
 def with_zeros(zeros: Sequence[complex]) -> np.ndarray:
@@ -70,6 +84,7 @@ class Rst:
     observer: tuple[float, ...] = (1.0,)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "h", positive(self.h, "h", PlacementError, " s"))
         lead = _row(self.R, "R")[0]
         if lead == 0:
             raise PlacementError(f"R = {self.R} has no term without delay: u(k) would not appear in its own equation")

@@ -6,10 +6,10 @@ Source of the ranges and rules: pid-report, Table 5.1 and section 5.1.
 import math
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from numbers import Real
 from typing import Any
 
 from derivations.errors import LoopbookError
+from loopbook.numerics.real_numbers import plain_number
 
 ANTI_WINDUP = {
     "tracking": "I follows the limited output with the time constant Tt (pid-report, eq. 4.5)",
@@ -28,10 +28,15 @@ class SettingError(LoopbookError):
         super().__init__(f"{name} = {value!r} is outside its range: {range}{'; ' + hint if hint else ''}")
 
 
-def _number(name: str, value: Any, infinite: bool = False) -> None:
-    finite = isinstance(value, Real) and value == value and (infinite or abs(value) != math.inf)
-    if not finite or isinstance(value, bool):
+def _number(name: str, value: Any, infinite: bool = False) -> int | float | Fraction:
+    """The setting as a Python number, exact where it was. Raises SettingError for anything else."""
+    try:
+        number = plain_number(value)
+    except TypeError:
+        number = math.nan
+    if number != number or (abs(number) == math.inf and not infinite):
         raise SettingError(name, value, "a real number" if infinite else "a finite real number")
+    return number
 
 
 def tracking_time(Ti: Any, Td: Any) -> Any:
@@ -62,7 +67,7 @@ def tracking_time(Ti: Any, Td: Any) -> Any:
 class PidSettings:
     """u = K (b y_sp - y) + I + D in the standard form, all times in seconds.
 
-    K: gain [u/y], not 0, negative where y falls when u rises. Ti: integral time > 0, None for no integral action.
+    K: gain [u/y], not 0, negative where y falls when u rises. Ti: integral time > 0, None or inf: no integral action.
     Td: derivative time >= 0. Tf: time constant of the derivative's filter >= 0. b, c in [0, 1]: set-point weights of
     P and D; c = 0 is derivative on measurement, c = 1 on error. h > 0: sampling interval. u_low < u_high: limits of
     u, may be infinite. rate > 0: largest |du/dt| [u/s], None for none. anti_windup: a key of `ANTI_WINDUP`.
@@ -88,13 +93,12 @@ class PidSettings:
     anti_windup: str = "tracking"
 
     def __post_init__(self) -> None:
-        for name in ("K", "Td", "Tf", "b", "c", "h"):
-            _number(name, getattr(self, name))
-        for name in ("Ti", "Tt", "rate"):
-            if getattr(self, name) is not None:
-                _number(name, getattr(self, name))
-        for name in ("u_low", "u_high"):
-            _number(name, getattr(self, name), infinite=True)
+        if self.Ti is not None and _number("Ti", self.Ti, infinite=True) == math.inf:
+            object.__setattr__(self, "Ti", None)
+        for name in ("K", "Td", "Tf", "b", "c", "h", "Ti", "Tt", "rate", "u_low", "u_high"):
+            value = getattr(self, name)
+            if value is not None or name not in ("Ti", "Tt", "rate"):
+                object.__setattr__(self, name, _number(name, value, infinite=name in ("u_low", "u_high")))
         if self.K == 0:
             raise SettingError("K", self.K, "K > 0 or K < 0", "K = 0 controls nothing")
         if self.h <= 0:
@@ -136,6 +140,5 @@ class PidSettings:
         0.1
         """
         standard = form.standard()
-        Ti = None if standard.Ti == math.inf else standard.Ti
-        names = ("K", "Td", "Tf", "b", "c")
-        return cls(Ti=Ti, h=h, **{name: getattr(standard, name) for name in names}, **more)
+        names = ("K", "Ti", "Td", "Tf", "b", "c")
+        return cls(h=h, **{name: getattr(standard, name) for name in names}, **more)

@@ -13,7 +13,7 @@ TABLE = {
     "Study": "loopbook.design.study:Study",
     "Model": "loopbook.design.model:Model",
     "ModelError": "loopbook.design.model:ModelError",
-    "read_toml": "loopbook.design.model_file:read_toml",
+    "read_model": "loopbook.design.model_file:read_model",
     "evaluate": "loopbook.design.evaluation:evaluate",
     "recommend": "loopbook.design.recommendation:recommend",
 }

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from loopbook.controllers.pid_forms import PidStandard
+from loopbook.controllers.pid_forms import LEFT_OUT, PidStandard
 from loopbook.design.model import Model
 from loopbook.loop.transfer import LoopError
 from loopbook.tuning.process_data import ProcessData
@@ -73,9 +73,9 @@ def of_rules(model: Model) -> dict[str, Callable[[ProcessData], Tuning]]:
 
 def ready(model: Model, pid: PidStandard) -> PidStandard:
     """A rule's settings as they are run: the sign of the process, derivative on the measurement, filter Td/N."""
-    return PidStandard(model.sign * pid.K, pid.Ti, pid.Td, b=pid.b, c=0.0, N=FILTER if pid.Td else None)
+    return PidStandard(model.sign * pid.K, pid.Ti, pid.Td, b=pid.b, c=0.0, N=FILTER if pid.Td else LEFT_OUT)
 
 
 def filtered(candidate: Candidate, N: float) -> Candidate:
     """The same settings behind a filter of Td/N."""
-    return replace(candidate, pid=replace(candidate.pid, N=N, Tf=None))
+    return replace(candidate, pid=replace(candidate.pid, N=N, Tf=LEFT_OUT))

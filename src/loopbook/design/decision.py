@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from loopbook.design import recommendation, selection, speed
-from loopbook.design.evaluation import Evaluation
+from loopbook.design.evaluation import Evaluation, Robustness
 from loopbook.identification.intervals import quantum
 from loopbook.records.record import RecordError
 
@@ -44,7 +44,9 @@ def decide(study: Any) -> tuple[recommendation.Recommendation, selection.Selecte
     pool, tried = study.at_knob or study.evaluations, []
     spread = study.spread_of([e for e in pool if e.stable and aim.admits(e, e.Ms)])
 
-    def attempt(loops: list, spread: dict):
+    def attempt(
+        loops: list[Evaluation], spread: dict[str, Robustness]
+    ) -> tuple[recommendation.Recommendation, selection.Selected | None]:
         found = recommendation.recommend(loops, study.aim, spread)
         tried.extend([*found.admitted, *([found.chosen] if found.compromise else [])])
         admits = lambda e: aim.admits(e, recommendation.worst_peak(e, study.spread_of([e])[e.candidate.name]))  # noqa: E731
@@ -53,7 +55,10 @@ def decide(study: Any) -> tuple[recommendation.Recommendation, selection.Selecte
         chosen = selection.select(ordered, admits, limit, study.conditions)
         return found, chosen
 
-    first, chosen = attempt(pool, spread) if any(e.stable for e in pool) else (None, None)
+    first: recommendation.Recommendation | None = None
+    chosen: selection.Selected | None = None
+    if any(e.stable for e in pool):
+        first, chosen = attempt(pool, spread)
     found, passed_over = first, []
     if chosen is None and not study.knob:
         for value in SLOWER:
@@ -64,10 +69,9 @@ def decide(study: Any) -> tuple[recommendation.Recommendation, selection.Selecte
                 passed_over = [f"The rules at their own speed ask too much here; this one is at the speed {value:g}."]
                 break
     if chosen is None:
-        stable = [e for e in tried if e.stable]
-        chosen, found = selection.least_shaking(stable, study.conditions), first or found
-        if chosen is None or found is None:
-            raise RecordError(_none(study, stable))
+        chosen, found = selection.least_shaking([e for e in tried if e.stable], study.conditions), first or found
+    if chosen is None or found is None:
+        raise RecordError(_none(study, [e for e in tried if e.stable]))
     reasons = [
         r for r in found.reasons if chosen.chosen.candidate.name == found.chosen.candidate.name or "Next" not in r
     ]

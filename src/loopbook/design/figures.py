@@ -60,7 +60,7 @@ def sheet(study: Any) -> Any:
         )
     log, fit = study.identified.record, study.identified.chosen
     fig, axes = plt.subplots(2, 1, figsize=(6.3, 2.1), sharex=True, layout="constrained", height_ratios=[3, 1])
-    shown, out = log.used, log.left_out
+    shown, out = log.used, ~log.used
     axes[0].plot(log.time[shown], log.y[shown], ".", color="0.6", markersize=2.5, label="measured")
     if out.any():
         axes[0].plot(log.time[out], log.y[out], "x", color=COLOURS[1], markersize=4, label="left out")
@@ -111,7 +111,7 @@ def along(curve: Sequence[Any], chosen: Any) -> Any:
         points = [(k, e) for k, e in curve if bool(e.candidate.pid.Td) is (kind == "PID")]
         if not points:
             continue
-        how = {"color": colour, "marker": marker, "markersize": 4}
+        how: dict[str, Any] = {"color": colour, "marker": marker, "markersize": 4}
         axis.plot([e.Ms for _, e in points], [e.iae_load for _, e in points], label=kind, **how)
         for knob, e in points:
             axis.annotate(f"{knob.speed:g}", (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)

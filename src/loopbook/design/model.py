@@ -9,7 +9,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.experiments import step
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
 from notebook_reports.display import number
 
@@ -44,7 +44,7 @@ class Model:
     covariance: Any = None
     source: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         lags = tuple(sorted((float(T) for T in self.lags), reverse=True))
         object.__setattr__(self, "lags", lags)
         if not np.isfinite([self.gain, self.delay, *lags]).all() or self.gain == 0:
@@ -105,7 +105,7 @@ class Model:
             return IntegratingStepData(model.gain, model.delay + sum(model.lags))
         if len(model.lags) == 1:
             return StepData(model.gain, model.lags[0], model.delay)
-        return step.exact(model.process)
+        return step.step_data(model.process)
 
     @cached_property
     def frequency_data(self) -> "FrequencyData":

@@ -1,6 +1,7 @@
 """A process model from a TOML file, its template, and parameters fixed in a line of text."""
 
 import difflib
+import math
 import re
 import tomllib
 from collections.abc import Mapping
@@ -49,7 +50,7 @@ LEAST, MOST = 1e-12, 1e12
 """The smallest and the largest number, apart from zero, that a description of a process may hold."""
 
 
-def read_toml(path: str | Path) -> Model:
+def read_model(path: str | Path) -> Model:
     """Read a process from a TOML file, see `TEMPLATE`.
 
     A time constant may be a number or a list of numbers, named time_constants or time_constant. Raises ModelError with
@@ -137,7 +138,7 @@ def seconds(text: str) -> float:
         number = float(found[1]) if found else float("nan")
     except ValueError:
         number = float("nan")
-    if number != number or (found[2] and found[2] not in TIME_UNITS):
+    if not found or math.isnan(number) or (found[2] and found[2] not in TIME_UNITS):
         raise ModelError(f"{text!r} is no time: write 20, 20s, 1.5min or 300ms")
     return number * TIME_UNITS.get(found[2], 1.0)
 

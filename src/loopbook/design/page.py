@@ -3,10 +3,11 @@
 import math
 from pathlib import Path
 
-from loopbook.controllers.pid_forms import FormError
+from loopbook.controllers.pid_forms import FormError, PidStandard
+from loopbook.controllers.settings import PidSettings
 from loopbook.design.program import start_formulas
 from loopbook.design.study import Study
-from loopbook.design.words import Units, as_text
+from loopbook.design.words import Units, as_plain_text
 from notebook_reports.display import Table, number
 
 LEFT = ["left", "left"]
@@ -21,7 +22,7 @@ def recorded(study: Study) -> Table:
     if found is not None:
         u0, y0 = study.rest
         rows = [
-            ["record", f"{as_text(Path(study.data).name)}: {as_text(study.line)}"],
+            ["record", f"{as_plain_text(Path(study.data).name)}: {as_plain_text(study.line)}"],
             ["at rest", f"{units.u} = {units.input(u0)}, {units.y} = {units.output(y0)}"],
             *rows,
             ["noise", f"{units.output(study.conditions.noise, 2)} (standard deviation)"],
@@ -39,8 +40,7 @@ def _process(study: Study) -> str:
     found = study.identified
     explains = f", explains {found.chosen.fit:.1f} % of the response" if found else ""
     text = f"${study.model.latex()}${explains}"
-    if study.milder is not None:
-        fit = found.directions
+    if found and (fit := found.directions):
         text += (
             f"; not the same both ways: $T$ = {number(fit.up.lags[0], 3)} s up, {number(fit.down.lags[0], 3)} s down"
         )
@@ -77,7 +77,7 @@ def entered(study: Study) -> Table:
     return Table(["", f"What to enter: {study.recommendation.chosen.candidate.name}"], rows, "", LEFT)
 
 
-def _series(pid) -> str:
+def _series(pid: PidStandard) -> str:
     if not pid.Td:
         return f"as standard: $K$ = {number(pid.K, 4)}" + (
             f", $T_i$ = {number(pid.Ti, 4)} s" if pid.Ti < math.inf else ""
@@ -89,7 +89,7 @@ def _series(pid) -> str:
     return f"$K$ = {number(series.K, 4)}, $T_i$ = {number(series.Ti, 4)} s, $T_d$ = {number(series.Td, 4)} s"
 
 
-def _library(pid, settings, limits) -> str:
+def _library(pid: PidStandard, settings: PidSettings, limits: tuple[float, float]) -> str:
     parallel = pid.parallel()
     gains = ", ".join(f"{abs(v):.5g}" for v in (parallel.P, parallel.I, parallel.D))
     on = ", P_ON_M" if pid.b == 0 else ""
@@ -104,7 +104,7 @@ def switched_on(study: Study) -> Table:
     units, program = Units(study.identified), study.program
     u0, y0 = study.rest
     start = program.start
-    x, I = (f"`{text}`" for text in _formulas())
+    x, I = (f"`{text}`" for text in start_formulas())
     here = f"; at the record's rest {number(start['x'], 5)} and {number(start['I'], 5)}" if study.identified else ""
     at = f" at about {units.input(u0)} until {units.y} stands still near {units.output(y0)}" if study.identified else ""
     step = units.output(abs(study.steps[0]) / 2, 2)
@@ -119,28 +119,24 @@ def switched_on(study: Study) -> Table:
     return Table(["", "How to switch on"], rows, "", LEFT)
 
 
-def _formulas() -> tuple[str, str]:
-    return start_formulas()
-
-
 def watched(study: Study) -> Table:
     """What the running program should do, and what to mind."""
-    units, e = Units(study.identified), study.running.expected
+    units, run, e = Units(study.identified), study.running, study.running.expected
     settles = (
         f"within 2 % after {number(e['settling'], 3)} s"
         if e["settling"] is not None
         else "not settled in the time simulated"
     )
-    step = units.output(e["reference_step"], 3)
-    peak = units.input(e["peak_input"] * abs(e["reference_step"]), 3)
+    step = units.output(run.reference, 3)
+    peak = units.input(run.peak_input, 3)
     rows = [[f"set-point step of {step}",
-             f"overshoot {number(e['overshoot'], 3)} %, {settles}, {units.u} moves by up to {peak}"]]  # fmt: skip
-    if e["input_noise"]:
-        share = number(100 * e["share_at_limit"], 2)
+             f"overshoot {number(run.overshoot, 3)} %, {settles}, {units.u} moves by up to {peak}"]]  # fmt: skip
+    if run.input_noise:
+        share = number(100 * run.at_limit, 2)
         rows.append(
             [
                 "noise",
-                f"{units.u} moves by {units.input(e['input_noise'], 2)} (standard deviation), "
+                f"{units.u} moves by {units.input(run.input_noise, 2)} (standard deviation), "
                 f"{share} % of the samples at a limit",
             ]
         )
@@ -160,7 +156,7 @@ def watched(study: Study) -> Table:
     marks = [""] * len(rows)
     told = [text for text in study.cautions if not text.startswith("Limits")]  # the first table says that
     for text in told[:MOST_CAUTIONS]:
-        rows.append(["mind", as_text(text)])
+        rows.append(["mind", as_plain_text(text)])
         marks.append("note")
     if len(told) > MOST_CAUTIONS:
         rows.append(["mind", f"{len(told) - MOST_CAUTIONS} more on the following pages"])

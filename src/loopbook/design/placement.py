@@ -9,7 +9,7 @@ from loopbook.controllers.rst import PlacementError, Rst, with_zeros
 from loopbook.design.model import Model
 from loopbook.design.speed import time_scale
 from loopbook.loop.sampled import SampledLoop, SampledMargins
-from loopbook.pole_placement.numeric import place
+from loopbook.pole_placement.numeric import place_numerically
 from loopbook.process.sampled import sample
 from notebook_reports.display import Table, number
 
@@ -46,7 +46,7 @@ def placed(model: Model, closed: float, h: float) -> Placed:
     q = math.exp(-h / closed)
     B, A = sample(model.process, h).polynomials
     try:
-        regulator = place(B, A, with_zeros([q] * len(A)), h).regulator
+        regulator = place_numerically(B, A, with_zeros([q] * len(A)), h).regulator
     except PlacementError as error:
         return Placed(closed, q, None, reason=str(error))
     loop = SampledLoop(model.process, regulator)

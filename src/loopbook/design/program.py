@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from derivations.algebra.listing import written
 from derivations.pid.pid_laws import c
@@ -13,6 +13,9 @@ from derivations.programs.pid_code import minimal
 from loopbook.controllers.generated import program_gains
 from loopbook.controllers.settings import PidSettings
 from loopbook.design.evaluation import Evaluation
+
+if TYPE_CHECKING:
+    import sympy
 
 PER_CROSSOVER = 0.15  # h times the gain crossover frequency: the usual upper end of what costs little phase
 GAINS = {
@@ -94,7 +97,7 @@ def rest_state() -> Callable[..., tuple[float, float]]:
 
 
 @cache
-def _start_expressions():
+def _start_expressions() -> "list[sympy.Expr]":
     """x and I (in x) at rest, with the set-point at the measurement, as SymPy expressions in plain symbols."""
     import sympy
 

@@ -21,7 +21,7 @@ def derive() -> None:
     response = FIRST_ORDER.response(time, [(1.0, 1.0)], (2.0,), 1.0)
     record = Record(time, np.where(time >= 1.0, 1.0, 0.0), response)
     choice.identify(record)
-    graphical.readings(record)
+    graphical.graphical_readings(record)
     for model in (Model(1.0, (1.0, 0.5), 0.5), Model(1.0, (), 1.0, integrating=True), Model(1.0, (2.0,), 1.0)):
         found, _ = candidates(model)
         candidates(model, speed.rules(model, speed.at_speed(model, 0.5)))

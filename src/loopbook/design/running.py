@@ -125,22 +125,22 @@ class Running:
         if self.milder is None:
             half = len(self.clean.y) // 2
             return [(self.clean.y[:half], self.reference)]
-        return [(self._both_ways(sign * self.reference), sign * self.reference) for sign in (1.0, -1.0)]
+        return [(self._both_ways(self.milder, sign * self.reference), sign * self.reference) for sign in (1.0, -1.0)]
 
-    def _both_ways(self, reference: float) -> np.ndarray:
+    def _both_ways(self, milder: Model, reference: float) -> np.ndarray:
         """The program on a process that is faster one way than the other, from the middle of the limits' reach."""
         settings = self.program.settings
         h, (low, high) = float(settings.h), self._limits()
         if reference * self.reference < 0:  # the way back, from where the way out ended
             shift = self.reference / self.model.gain
             low, high = low - shift, high - shift
-        rising, falling = self.model.lags[0], self.milder.lags[0]
+        rising, falling = self.model.lags[0], milder.lags[0]
         if not self.model.rises:
             rising, falling = falling, rising
         controller = Pid(settings.changed(u_low=low, u_high=high))
         ratio = self.model.delay / h
         whole, late = int(ratio + 1e-9), max(ratio - int(ratio + 1e-9), 0.0) * h
-        slower = max(self.milder.lags[0] / self.model.lags[0], 1.0)
+        slower = max(milder.lags[0] / self.model.lags[0], 1.0)
         steps = max(int(min(slower * self.horizon / 2 / h, SAMPLES)), 2)
         inputs, y, found = [0.0] * (whole + 2), 0.0, np.empty(steps)
         for k in range(steps):
@@ -186,6 +186,11 @@ class Running:
         left = np.angle(-self.sampled.at(w * float(self.program.settings.h))) % (2 * np.pi)
         return float(np.min(left / w))
 
+    @property
+    def peak_input(self) -> float:
+        """The largest |u - u0| after the reference step [u]."""
+        return float(np.abs(self.clean.u[: len(self.clean.u) // 2]).max())
+
     @cached_property
     def expected(self) -> dict[str, float | None]:
         """What to expect of the program that runs. Units: seconds, degrees, those of the record; null for infinite."""
@@ -205,7 +210,7 @@ class Running:
             "settling": self.settling,
             "iae_reference": float(errors[:half].sum() * h / abs(self.reference)),
             "iae_load": float(errors[half:].sum() * h / abs(self.load)) if self.load else math.nan,
-            "peak_input": float(np.abs(self.clean.u[:half]).max() / abs(self.reference)),
+            "peak_input": self.peak_input / abs(self.reference),
             "measurement_noise": self.noise,
             "input_noise": self.input_noise,
             "share_at_limit": self.at_limit,

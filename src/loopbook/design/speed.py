@@ -67,7 +67,9 @@ def rules(model: Model, knob: Speed) -> dict[str, Callable[[ProcessData], Tuning
     named = ("simc-pi", "simc-pid", *(() if model.integrating else ("lambda-pi", "lambda-pid")))
     suffix = "-integrating" if model.integrating else ""
     chosen = [RULES[name + suffix] for name in named]
-    found = {f"{rule.title}, closed loop {knob.closed:.3g} s": partial(rule, closed=knob.closed) for rule in chosen}
+    found: dict[str, Callable[[ProcessData], Tuning]] = {
+        f"{rule.title}, closed loop {knob.closed:.3g} s": partial(rule, closed=knob.closed) for rule in chosen
+    }
     if 0 <= knob.speed <= 1:
         for rule in (RULES["migo-pi"], RULES["migo-pid"]):
             found[f"{rule.title}, M = {knob.M:.3g}"] = partial(rule, M=knob.M)

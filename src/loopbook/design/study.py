@@ -13,7 +13,7 @@ from loopbook.design import evaluation, speed
 from loopbook.design.decision import conditions, curve, decide
 from loopbook.design.limits import Limits, find_limits, rest_input
 from loopbook.design.model import Model, ModelError, from_fit, from_identified
-from loopbook.design.model_file import read_fixed, read_toml, with_fixed
+from loopbook.design.model_file import read_fixed, read_model, with_fixed
 from loopbook.design.placement import placements
 from loopbook.design.results import results
 from loopbook.design.selection import horizon
@@ -70,7 +70,7 @@ class Study:
     unlimited: bool = False
     seed: int = 0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if bool(self.K180) != bool(self.T180):
             raise ModelError(f"K180 = {self.K180}, T180 = {self.T180}: an ultimate point needs both, or neither")
         if self.u_low is not None and self.u_high is not None and not self.u_low < self.u_high:
@@ -99,7 +99,7 @@ class Study:
         measured = FrequencyData(self.K180, self.T180) if self.K180 else None
         if self.identified is not None:
             return from_identified(self.identified, measured)
-        model = read_toml(self.data)
+        model = read_model(self.data)
         if self.known:
             model = with_fixed(model, read_fixed(self.known))
         return replace(model, frequency=measured) if measured else model
@@ -259,9 +259,8 @@ class Study:
     @property
     def line(self) -> str:
         """The record in one line: what was taken for what."""
-        if self.record is None:
-            return f"model: {self.model.source}"
-        return line(self.record, self.identified.steps)
+        found = self.identified
+        return f"model: {self.model.source}" if found is None else line(found.record, found.steps)
 
     @property
     def mind(self) -> list[str]:

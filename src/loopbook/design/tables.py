@@ -10,9 +10,9 @@ from loopbook.design.evaluation import Evaluation, Robustness
 from loopbook.design.program import GAINS, SampledProgram
 from loopbook.design.recommendation import Recommendation
 from loopbook.design.study import Study
-from loopbook.design.words import as_text
+from loopbook.design.words import as_plain_text
 from loopbook.identification.fit import Parameter
-from loopbook.identification.graphical import readings
+from loopbook.identification.graphical import graphical_readings
 from notebook_reports.display import Table, number
 
 
@@ -24,10 +24,12 @@ def assumptions(study: Study) -> Table:
     """What the record was taken to be, or where the model comes from."""
     if study.identified is None:
         return Table(
-            ["", "what was given"], [["1", f"A model: {as_text(study.model.source)}. Nothing was fitted."]], "The model"
+            ["", "what was given"],
+            [["1", f"A model: {as_plain_text(study.model.source)}. Nothing was fitted."]],
+            "The model",
         )
     found = study.identified
-    rows = [[str(i + 1), as_text(text)] for i, text in enumerate((*found.record.assumptions, *found.steps.notes))]
+    rows = [[str(i + 1), as_plain_text(text)] for i, text in enumerate((*found.record.assumptions, *found.steps.notes))]
     return Table(["", "what was assumed"], rows, "How the record was read", ["right", "left"])
 
 
@@ -58,7 +60,9 @@ def choice(study: Study) -> Table:
     if study.identified is None:
         return Table(["model"], [["The model is taken as exact: the margins below know no uncertainty."]], "The choice")
     found = study.identified
-    rows = [["reason", as_text(text)] for text in found.reasons] + [["mind", as_text(text)] for text in found.warnings]
+    rows = [["reason", as_plain_text(text)] for text in found.reasons] + [
+        ["mind", as_plain_text(text)] for text in found.warnings
+    ]
     marks = ["good"] * len(found.reasons) + ["note"] * len(found.warnings)
     return Table(["", "the choice of the model"], rows, "Why this model", ["left", "left"], (), marks)
 
@@ -69,7 +73,7 @@ def graphical(study: Study) -> Table:
         return Table(["rule"], [["no record: nothing to read"]], "Graphical rules")
     rows = [
         [r.rule, r.source, ", ".join(f"{n} = {number(v, 4)}" for n, v in r.values.items()) or f"refuses: {r.reason}"]
-        for r in readings(study.identified.record)
+        for r in graphical_readings(study.identified.record)
     ]
     return Table(["rule", "source", "reads"], rows, "Graphical rules on the first step", ["left"] * 3)
 
@@ -135,7 +139,7 @@ def performance(evaluations: Sequence[Evaluation]) -> Table:
     return Table(heads, rows, "Responses to unit steps of the reference and of the load")
 
 
-def coefficients(program: SampledProgram) -> Table:
+def program_coefficients(program: SampledProgram) -> Table:
     """The numbers that go into the controller."""
     s = program.settings
     names = {"K": "gain", "Ti": "integral time", "Td": "derivative time", "Tf": "filter time constant",
@@ -162,7 +166,7 @@ def single_precision(study: Study) -> Table:
         )
     y = found.record.y
     price = cost(regulator_from_json(study.results()), float(y.max() - y.min()))
-    units = {"y": as_text(found.record.output_unit), "u": as_text(found.record.input_unit)}
+    units = {"y": as_plain_text(found.record.output_unit), "u": as_plain_text(found.record.input_unit)}
     rows = [[what, value, units.get(unit, unit)] for what, value, unit in price.rows()]
     advice = price.advice or ("Single precision is enough: no error that matters is lost in the integral.",)
     return Table(

@@ -5,10 +5,10 @@ from notebook_reports.display import literal, number
 from notebook_reports.project.printable import printable
 
 
-def as_text(text: str) -> str:
+def as_plain_text(text: str) -> str:
     """Text from a file as inline text that shows it as it is; what does not print as Python writes it.
 
-    >>> as_text("cost [$]")
+    >>> as_plain_text("cost [$]")
     'cost [\\\\$]'
     """
     return literal(printable(str(text)))
@@ -19,12 +19,12 @@ class Units:
 
     def __init__(self, found: Identified | None):
         record = found.record if found else None
-        self.u = as_text(record.input_name) if record else "u"
-        self.y = as_text(record.output_name) if record else "y"
+        self.u = as_plain_text(record.input_name) if record else "u"
+        self.y = as_plain_text(record.output_name) if record else "y"
         self._u, self._y = (record.input_unit, record.output_unit) if record else ("", "")
 
     def input(self, value: float, digits: int = 4) -> str:
-        return f"{number(value, digits)} {as_text(self._u)}".rstrip()
+        return f"{number(value, digits)} {as_plain_text(self._u)}".rstrip()
 
     def output(self, value: float, digits: int = 4) -> str:
-        return f"{number(value, digits)} {as_text(self._y)}".rstrip()
+        return f"{number(value, digits)} {as_plain_text(self._y)}".rstrip()

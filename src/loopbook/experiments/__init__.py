@@ -2,7 +2,7 @@
 
 >>> from loopbook.experiments import Plant, relay
 >>> from loopbook.process.transfer_function import Process
->>> found = relay.estimate(relay.run(Plant(Process([2], [40, 14, 1], 3))))
+>>> found = relay.estimate(relay.apply_relay(Plant(Process([2], [40, 14, 1], 3))))
 >>> round(found.data.Ku, 2), round(found.data.T180, 1)
 (2.58, 19.8)
 """

@@ -85,8 +85,6 @@ def nearest(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)
     at T63. This is where the program of figure 5.12 ends for a process of another form.
     Raises ExperimentError where kappa >= 1 or no alpha gives a dead time that is not negative.
     """
-    from scipy.optimize import brentq
-
     if frequency.kappa(step.Kp) >= 1:
         raise ExperimentError(
             f"kappa = K180/Kp = {frequency.kappa(step.Kp):.4g} >= 1: no lag lowers the gain at -180 degrees; the "
@@ -95,7 +93,7 @@ def nearest(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)
     _, safe, dead, e1, equal, *_ = _functions("numpy")
     T1 = safe(ALPHAS, frequency.w180, step.Kp, frequency.Ku)
     L1 = dead(frequency.w180, T1, ALPHAS * T1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         values = e1(T1, ALPHAS * T1, L1, step.T63, tail)
     values[-1] = equal(T1[-1], T1[-1], L1[-1], step.T63, tail)
     values = np.where(step.T63 <= L1, tail - 1.0, values)
@@ -105,11 +103,21 @@ def nearest(step: StepData, frequency: FrequencyData, tail: float = math.exp(-1)
     change = [i for i in possible[:-1] if i + 1 in possible and (values[i] < 0) != (values[i + 1] < 0)]
     if change:
         data = step, frequency
-        roots = [brentq(residual, *ALPHAS[i : i + 2], (*data, tail), xtol=1e-15, rtol=1e-13) for i in change]
+        roots = [_root(float(ALPHAS[i]), float(ALPHAS[i + 1]), (*data, tail)) for i in change]
         found = [TwoLagData(step.Kp, *lags(alpha, *data)) for alpha in roots]
         return min(found, key=lambda model: abs(_tangent(model) - step.L) if len(found) > 1 else 0.0), 0.0
     i = int(possible[np.argmin(abs(values[possible]))])
     return TwoLagData(step.Kp, float(T1[i]), float(ALPHAS[i] * T1[i]), float(L1[i])), float(values[i])
+
+
+def _root(a: float, b: float, data: tuple[StepData, FrequencyData, float]) -> float:
+    """The alpha in [a, b] at which the equation holds; an end where nothing but rounding is left of it."""
+    from scipy.optimize import brentq
+
+    ends = {alpha: residual(alpha, *data) for alpha in (a, b)}
+    if ends[a] * ends[b] >= 0:
+        return min(ends, key=lambda alpha: abs(ends[alpha]))
+    return brentq(residual, a, b, data, xtol=1e-15, rtol=1e-13)
 
 
 def _tangent(model: TwoLagData) -> float:

@@ -6,7 +6,10 @@ process gives.
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
 
+from loopbook.numerics.real_numbers import plain_number
 from loopbook.refusal import Refusal
 
 
@@ -14,16 +17,23 @@ class DataError(Refusal):
     """Numbers that no experiment on a process of this kind can give."""
 
 
-def _positive(where: str, **named: float) -> None:
-    for name, value in named.items():
-        if not (math.isfinite(value) and value > 0):
-            raise DataError(f"{where}: {name} = {value!r} must be a positive finite number")
+def _check(data: object, where: str, sizes: tuple[str, ...] = (), times: tuple[str, ...] = ()) -> None:
+    """Make each named field a Python number, positive or a time of zero or longer."""
+    for name in (*sizes, *times):
+        object.__setattr__(data, name, _number(where, name, getattr(data, name), positive=name in sizes))
 
 
-def _time(where: str, **named: float) -> None:
-    for name, value in named.items():
-        if not (math.isfinite(value) and value >= 0):
-            raise DataError(f"{where}: {name} = {value!r} s must be zero or a positive time")
+def _number(where: str, name: str, value: Any, positive: bool = True) -> float:
+    try:
+        number = plain_number(value)
+    except TypeError as error:
+        raise DataError(f"{where}: {name}: {error}") from None
+    number = float(number) if isinstance(number, Fraction) else number
+    if positive and not (math.isfinite(number) and number > 0):
+        raise DataError(f"{where}: {name} = {number!r} must be a positive finite number")
+    if not (math.isfinite(number) and number >= 0):
+        raise DataError(f"{where}: {name} = {number!r} s must be zero or a positive time")
+    return number
 
 
 @dataclass(frozen=True)
@@ -39,8 +49,7 @@ class StepData:
     L: float
 
     def __post_init__(self) -> None:
-        _positive("step data", Kp=self.Kp)
-        _time("step data", T=self.T, L=self.L)
+        _check(self, "step data", ("Kp",), ("T", "L"))
         if self.T + self.L == 0:
             raise DataError("step data: T = L = 0: the output follows the input at once, there is nothing to tune")
 
@@ -67,8 +76,7 @@ class IntegratingStepData:
     L: float
 
     def __post_init__(self) -> None:
-        _positive("step data of an integrating process", Kv=self.Kv)
-        _time("step data of an integrating process", L=self.L)
+        _check(self, "step data of an integrating process", ("Kv",), ("L",))
 
 
 @dataclass(frozen=True)
@@ -83,7 +91,7 @@ class FrequencyData:
     T180: float
 
     def __post_init__(self) -> None:
-        _positive("frequency data", K180=self.K180, T180=self.T180)
+        _check(self, "frequency data", ("K180", "T180"))
 
     @classmethod
     def from_ultimate(cls, Ku: float, Tu: float) -> "FrequencyData":
@@ -92,8 +100,7 @@ class FrequencyData:
         >>> FrequencyData.from_ultimate(Ku=4, Tu=2)
         FrequencyData(K180=0.25, T180=2)
         """
-        _positive("the ultimate point", Ku=Ku, Tu=Tu)
-        return cls(1 / Ku, Tu)
+        return cls(1 / _number("the ultimate point", "Ku", Ku), _number("the ultimate point", "Tu", Tu))
 
     @property
     def Ku(self) -> float:
@@ -124,8 +131,7 @@ class TwoLagData:
     L1: float
 
     def __post_init__(self) -> None:
-        _positive("two-lag data", Kp=self.Kp)
-        _time("two-lag data", T1=self.T1, T2=self.T2, L1=self.L1)
+        _check(self, "two-lag data", ("Kp",), ("T1", "T2", "L1"))
 
 
 @dataclass(frozen=True)
@@ -141,8 +147,7 @@ class IntegratingPulseData:
     L1: float
 
     def __post_init__(self) -> None:
-        _positive("pulse data", Kv=self.Kv)
-        _time("pulse data", T2=self.T2, L1=self.L1)
+        _check(self, "pulse data", ("Kv",), ("T2", "L1"))
 
     @property
     def step(self) -> IntegratingStepData:

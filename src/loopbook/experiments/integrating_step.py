@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from loopbook.experiments.data import IntegratingStepData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, sum_of_lags
 from loopbook.experiments.step import single_step
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
@@ -20,16 +20,16 @@ from loopbook.records.steps import noise_level
 BENT = 0.02  # relative difference of the slopes in the two halves of the tail that still counts as one line
 
 
-def exact(process: Process) -> IntegratingStepData:
+def slope_data(process: Process) -> IntegratingStepData:
     """What a perfect experiment tells: with G(s) = Kv N(s)/(s D(s)) e^(-Ls), N(0) = D(0) = 1, it is L + D'(0) - N'(0).
 
     Raises ExperimentError where the process does not integrate exactly once.
 
-    >>> exact(Process.integrating(2.0, 1.0, 0.5))
+    >>> slope_data(Process.integrating(2.0, 1.0, 0.5))
     IntegratingStepData(Kv=2.0, L=1.5)
     """
     if not _integrates_once(process):
-        raise ExperimentError("the process does not integrate exactly once: use step.exact for a stable one")
+        raise ExperimentError("the process does not integrate exactly once: use step.step_data for a stable one")
     num, den = (*(0.0,) * 2, *process.num), (0.0, *process.den)
     gain = num[-1] / den[-2]
     lag = den[-3] / den[-2] - num[-2] / num[-1]
@@ -40,11 +40,11 @@ def _integrates_once(process: Process) -> bool:
     return len(process.den) >= 2 and process.den[-1] == 0 and process.den[-2] != 0 and process.num[-1] != 0
 
 
-def run(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> Record:
+def apply_long_step(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> Record:
     """Make the experiment: a step at a twentieth of the record, long enough for all lags to end."""
     if not _integrates_once(plant.process):
-        raise ExperimentError("the process does not integrate: use step.run")
-    lags = sum(1 / abs(p.real) for p in plant.process.poles if abs(p) > 1e-12)
+        raise ExperimentError("the process does not integrate: use step.apply_step")
+    lags = sum_of_lags(plant.process)
     horizon = horizon or 3 * plant.process.delay + 20 * lags + (0.0 if lags else plant.process.delay)
     return plant.play([(horizon / 19, amplitude)], horizon * 20 / 19)
 

@@ -19,6 +19,9 @@ from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
 from loopbook.refusal import Refusal
 
+AT_ONCE = 1.0
+"""A horizon [s] for a process that has no time of its own."""
+
 
 class ExperimentError(Refusal):
     """An experiment that cannot tell what it was asked for; the message says why and what to do instead."""
@@ -134,11 +137,15 @@ class Plant:
 
 def settling_horizon(process: Process, factor: float = 12.0) -> float:
     """A horizon [s] after which a stable process has settled: dead time and `factor` times the sum of its lags."""
-    slow = [p for p in process.poles if abs(p) > 1e-12]
-    if any(p.real >= 0 for p in slow):
+    if any(p and p.real >= 0 for p in process.poles):
         raise ExperimentError(f"the process is unstable by itself, poles {process.poles}: no open-loop experiment ends")
-    lags = sum(1 / abs(p.real) for p in slow)
-    return process.delay * 1.5 + factor * lags if lags else 4 * max(process.delay, 1e-3)
+    lags = sum_of_lags(process)
+    return process.delay * 1.5 + factor * lags if lags else 4 * process.delay or AT_ONCE
+
+
+def sum_of_lags(process: Process) -> float:
+    """What 1/|Re p| [s] of the poles that are no integrators add up to."""
+    return float(sum(1 / abs(p.real) for p in process.poles if p.real))
 
 
 def smooth(y: np.ndarray, window: int) -> np.ndarray:

@@ -14,8 +14,8 @@ import numpy as np
 
 from derivations.experiments import describing_function as d
 from loopbook.experiments.data import FrequencyData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant
-from loopbook.process.frequency_response import NoSuchFrequency, ultimate
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, sum_of_lags
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.records.record import Record
 from loopbook.records.steps import noise_level
 
@@ -40,7 +40,7 @@ def gain(y_a: float, u_a: float) -> float:
     return float(_process_gain()(y_a, u_a))
 
 
-def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: float | None = None) -> Record:
+def apply_relay(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: float | None = None) -> Record:
     """Close the loop with a relay of levels +-amplitude that switches where y leaves +-hysteresis.
 
     The output between switchings is exact and each switching instant is found to rounding; with noise the relay sees
@@ -74,7 +74,7 @@ def run(plant: Plant, amplitude: float = 1.0, hysteresis: float = 0.0, horizon: 
             beyond = lambda t: side * output(t) - hysteresis  # noqa: E731, B023
             left = max(float(time[i - 1]), switchings[-1][0])
             if beyond(left) < -rounding:
-                instant = float(brentq(beyond, left, instant, xtol=1e-14))
+                instant = float(brentq(beyond, left, instant, xtol=1e-14 * horizon, rtol=1e-14))
         level = float(plant.clip(-side * amplitude))
         y += (level - switchings[-1][1]) * response(np.maximum(time - instant, -1.0))
         switchings.append((instant, level))
@@ -97,8 +97,7 @@ def _horizon(plant: Plant) -> float:
     try:
         return 14 * ultimate(plant.process).T180
     except NoSuchFrequency:
-        lags = sum(1 / abs(p.real) for p in plant.process.poles if abs(p) > 1e-12)
-        return 10 * (lags + plant.process.delay)
+        return 10 * (sum_of_lags(plant.process) + plant.process.delay)
 
 
 def estimate(record: Record, hysteresis: float = 0.0) -> Estimate:

@@ -11,7 +11,7 @@ import numpy as np
 from loopbook.controllers.regulator import Regulator
 from loopbook.experiments.data import FrequencyData
 from loopbook.experiments.plant import Estimate, ExperimentError, Plant, smooth
-from loopbook.process.frequency_response import NoSuchFrequency, ultimate
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.records.record import Record
 from loopbook.records.steps import noise_level
 from loopbook.response.closed_loop import closed_loop_step
@@ -19,7 +19,7 @@ from loopbook.response.closed_loop import closed_loop_step
 STEADY = 0.05  # what the amplitude may change from one period to the next
 
 
-def run(plant: Plant, gain: float, step: float = 1.0, horizon: float | None = None) -> Record:
+def apply_gain(plant: Plant, gain: float, step: float = 1.0, horizon: float | None = None) -> Record:
     """The loop u = gain (r - y) after a step of r, exact with dead time.
 
     Raises ExperimentError where the actuator's limits are reached, for then the amplitude is the actuator's: make the
@@ -114,7 +114,7 @@ def search(plant: Plant, gain: float, step: float = 1.0) -> tuple[Estimate, list
     def drift(log_gain: float) -> float:
         tried.append(math.exp(log_gain))
         try:
-            return math.log(growth(run(plant, tried[-1], step)))
+            return math.log(growth(apply_gain(plant, tried[-1], step)))
         except ExperimentError as error:
             if "swings" not in str(error):
                 raise
@@ -131,4 +131,4 @@ def search(plant: Plant, gain: float, step: float = 1.0) -> tuple[Estimate, list
             raise ExperimentError("the loop oscillates at every gain: the process is unstable by itself")
     found = math.exp(brentq(drift, low, high, xtol=1e-6))
     tried.append(found)
-    return estimate(run(plant, found, step), found), tried
+    return estimate(apply_gain(plant, found, step), found), tried

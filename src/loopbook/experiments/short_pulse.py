@@ -9,33 +9,33 @@ import numpy as np
 
 from loopbook.experiments import step
 from loopbook.experiments.data import IntegratingPulseData
-from loopbook.experiments.plant import Estimate, ExperimentError, Plant
+from loopbook.experiments.plant import Estimate, ExperimentError, Plant, sum_of_lags
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record
 
 
-def run(plant: Plant, width: float, area: float = 1.0, horizon: float | None = None) -> Record:
+def apply_pulse(plant: Plant, width: float, area: float = 1.0, horizon: float | None = None) -> Record:
     """Make the experiment: height area/width for `width` seconds. An actuator limit makes the pulse smaller."""
     if not np.isinf(plant.process.static_gain):
-        raise ExperimentError("the process does not integrate: its pulse response returns to zero; use step.run")
+        raise ExperimentError("the process does not integrate: its pulse response returns to zero; use step.apply_step")
     if not width > 0:
         raise ExperimentError(f"width = {width!r} s: a pulse lasts some time")
-    lags = sum(1 / abs(p.real) for p in plant.process.poles if abs(p) > 1e-12)
+    lags = sum_of_lags(plant.process)
     horizon = horizon or 2 * plant.process.delay + 12 * lags + 5 * width
     start = horizon / 19
     return plant.play([(start, area / width), (start + width, 0.0)], horizon * 20 / 19)
 
 
-def exact(process: Process) -> IntegratingPulseData:
+def pulse_data(process: Process) -> IntegratingPulseData:
     """What an infinitely short pulse tells: the step data of s G(s).
 
-    >>> found = exact(Process.integrating(2.0, 1.0, 0.5))
+    >>> found = pulse_data(Process.integrating(2.0, 1.0, 0.5))
     >>> found.Kv, round(found.T2, 9), round(found.L1, 9)
     (2.0, 0.5, 1.0)
     """
     if process.den[-1] != 0:
-        raise ExperimentError("the process does not integrate: use step.exact")
-    found = step.exact(Process(process.num, process.den[:-1], process.delay)) if process.order > 1 else None
+        raise ExperimentError("the process does not integrate: use step.step_data")
+    found = step.step_data(Process(process.num, process.den[:-1], process.delay)) if process.order > 1 else None
     if found is None:
         return IntegratingPulseData(process.num[-1] / process.den[-2], 0.0, process.delay)
     return IntegratingPulseData(found.Kp, found.T, found.L)

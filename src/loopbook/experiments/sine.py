@@ -20,7 +20,7 @@ STRIDE = 1.4  # from one frequency tried to the next
 TREMOR = 0.05  # of the amplitude: what it may change between the two halves of the fitted periods
 
 
-def run(plant: Plant, frequency: float, amplitude: float = 1.0, horizon: float | None = None) -> Record:
+def apply_sine(plant: Plant, frequency: float, amplitude: float = 1.0, horizon: float | None = None) -> Record:
     """Make the experiment at one frequency [rad/s], long enough for the start to die out."""
     if plant.process.den[-1] == 0 or (plant.process.poles.real > 0).any():
         raise ExperimentError("the process has no steady answer to a sine; use the relay experiment, which holds it")
@@ -84,7 +84,7 @@ def search(plant: Plant, lowest: float, highest: float, amplitude: float = 1.0) 
 
     def phase(w: float, near: float) -> float:
         tried.append(w)
-        angle = estimate(run(plant, w, amplitude), w).marks["phase"]
+        angle = estimate(apply_sine(plant, w, amplitude), w).marks["phase"]
         return angle + 360 * round((near - angle) / 360)
 
     low, here = lowest, phase(lowest, -90.0)
@@ -100,4 +100,4 @@ def search(plant: Plant, lowest: float, highest: float, amplitude: float = 1.0) 
         raise ExperimentError(f"the phase is {here:.0f} degrees at {lowest:.4g} rad/s already: start lower")
     found = float(brentq(lambda w: phase(w, -180.0) + 180, low, low * STRIDE, xtol=1e-5 * low))
     tried.append(found)
-    return estimate(run(plant, found, amplitude), found), tried
+    return estimate(apply_sine(plant, found, amplitude), found), tried

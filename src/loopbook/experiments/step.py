@@ -18,15 +18,16 @@ from loopbook.records.record import Record
 from loopbook.records.steps import noise_level
 
 REACHED = 1 - math.exp(-1)
+KNOWN = 1e-12  # of the time to 63 %: a tangent that starts so near the step starts at it
 STILL = 0.02  # of the change: what the output may move over the last fifth of a record that has settled
 
 
-def exact(process: Process) -> StepData:
+def step_data(process: Process) -> StepData:
     """What a perfect step experiment tells: tangent and 63 % of the exact response, no samples.
 
     Raises ExperimentError for an integrating or unstable process.
 
-    >>> found = exact(Process.fopdt(2.0, 3.0, 1.0))
+    >>> found = step_data(Process.fopdt(2.0, 3.0, 1.0))
     >>> found.Kp, round(found.T, 9), round(found.L, 9)
     (2.0, 3.0, 1.0)
     """
@@ -37,12 +38,12 @@ def exact(process: Process) -> StepData:
         raise ExperimentError(f"the gain is {gain:.4g}: negative; turn the sign of the process and of u")
     response = ExactResponse(process, settling_horizon(process.rational, 6.0))
     t, slope = response.steepest()
-    L = process.delay + t - response.value(t) / slope
-    T63 = process.delay + response.reaches(REACHED * gain)
-    return StepData(gain, max(T63 - L, 0.0), max(L, 0.0))
+    tangent, T63 = t - response.value(t) / slope, response.reaches(REACHED * gain)
+    L = process.delay + (tangent if tangent > KNOWN * T63 else 0.0)
+    return StepData(gain, max(process.delay + T63 - L, 0.0), L)
 
 
-def run(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> Record:
+def apply_step(plant: Plant, amplitude: float = 1.0, horizon: float | None = None) -> Record:
     """Make the experiment: a step of the input at a twentieth of the record."""
     horizon = horizon or settling_horizon(plant.process)
     return plant.play([(horizon / 19, amplitude)], horizon * 20 / 19)

@@ -119,7 +119,7 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
             )
         chosen = _simplest(fits, criteria, usable)
     else:
-        chosen = first.structure
+        chosen = FIRST_ORDER
         fits[chosen] = directions.worse
         criteria = _criteria(fits, n)
     fit = fits[chosen]
@@ -140,7 +140,9 @@ def _simplest(fits: dict[Structure, Fit], criteria: dict[Structure, float], usab
     return min(near, key=lambda s: (len(fits[s].parameters), criteria[s]))
 
 
-def _started_off_rest(record: Record, steps: Steps, fits: dict[Structure, Fit], fixed) -> dict[Structure, Fit]:
+def _started_off_rest(
+    record: Record, steps: Steps, fits: dict[Structure, Fit], fixed: Mapping[str, float] | None
+) -> dict[Structure, Fit]:
     """The same fits with the state at the first sample estimated, where that explains the record clearly better."""
     best = min(fits.values(), key=lambda fit: fit.rmse)
     if best.nuisance == "rest" and (best.fit > GOOD_FIT or best.correlation < PATTERN):
@@ -182,7 +184,9 @@ def _both(directions: Directions) -> list[str]:
     ]
 
 
-def _reasons(fits, criteria, chosen, usable) -> list[str]:
+def _reasons(
+    fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure, usable: list[Structure]
+) -> list[str]:
     fit = fits[chosen]
     reasons = [f"{chosen.name.capitalize()} explains {fit.fit:.1f} % of the response (rms residual {fit.rmse:.3g})."]
     if fit.nuisance == "start":

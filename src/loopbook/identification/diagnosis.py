@@ -6,7 +6,7 @@ Each function looks for one reason and returns the sentence, or "" where it is n
 import numpy as np
 
 from loopbook.identification.fit import Fit
-from loopbook.identification.least_squares import Problem, drifts
+from loopbook.identification.least_squares import FitProblem, drifts
 from loopbook.identification.models import FEW_STEPS, FIRST_ORDER, _function
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps
@@ -95,7 +95,7 @@ def underdamped(record: Record, steps: Steps, fit: Fit) -> str:
         return ""
     from scipy.optimize import least_squares
 
-    problem = Problem(record, FIRST_ORDER, steps, "rest", {})
+    problem = FitProblem(record, FIRST_ORDER, steps, "rest", {})
     shape, scale = _function("ringing"), float(np.std(problem.y)) or 1.0
 
     def residuals(theta: np.ndarray) -> np.ndarray:
@@ -134,7 +134,7 @@ def asymmetric(record: Record, steps: Steps, fit: Fit) -> str:
     down = [s for s in steps.list if s[1] < 0]
     if steps.course or not up or not down:
         return ""
-    problem = Problem(record, fit.structure, steps, fit.nuisance, {})
+    problem = FitProblem(record, fit.structure, steps, fit.nuisance, {})
     answers = [fit.structure.response(problem.time, part, fit.lags, fit.delay) for part in (up, down)]
     columns = np.column_stack([problem.columns(fit.lags, fit.delay), *answers])
     coefficients = np.linalg.lstsq(columns, problem.y, rcond=None)[0]

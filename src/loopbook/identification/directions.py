@@ -10,7 +10,7 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
-from loopbook.identification.least_squares import Problem, linear
+from loopbook.identification.least_squares import FitProblem, linear
 from loopbook.identification.models import FIRST_ORDER
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps
@@ -36,7 +36,9 @@ class Directions:
         return self.down if self.worse is self.up else self.up
 
 
-def response(time: np.ndarray, steps: list[tuple[float, float]], T_up: float, T_down: float, delay: float, sign: float):
+def response(
+    time: np.ndarray, steps: list[tuple[float, float]], T_up: float, T_down: float, delay: float, sign: float
+) -> np.ndarray:
     """Response of gain 1 from rest at the times, shape (n,); sign: of the gain, which says what rising is.
 
     >>> import numpy as np
@@ -53,9 +55,9 @@ def response(time: np.ndarray, steps: list[tuple[float, float]], T_up: float, T_
         if i + 1 < len(instants):
             x = target + (x - target) * np.exp(-(instants[i + 1] - instants[i]) / T)
     at = np.searchsorted(instants, time, side="right") - 1
-    i = np.maximum(at, 0)
-    decay = np.exp(-np.maximum(time - instants[i], 0) / np.array(constants)[i])
-    return np.where(at < 0, 0.0, targets[i] + (np.array(states)[i] - targets[i]) * decay)
+    last = np.maximum(at, 0)
+    decay = np.exp(-np.maximum(time - instants[last], 0) / np.array(constants)[last])
+    return np.where(at < 0, 0.0, targets[last] + (np.array(states)[last] - targets[last]) * decay)
 
 
 def fit_directions(record: Record, steps: Steps, symmetric: Fit) -> tuple[Directions, int] | None:
@@ -70,7 +72,7 @@ def fit_directions(record: Record, steps: Steps, symmetric: Fit) -> tuple[Direct
     large = heights[np.abs(heights) > SMALL * np.abs(heights).max()]
     if steps.course or not ((large > 0).any() and (large < 0).any()):
         return None
-    problem = Problem(record, FIRST_ORDER, steps, symmetric.nuisance, {})
+    problem = FitProblem(record, FIRST_ORDER, steps, symmetric.nuisance, {})
     sign = 1.0 if symmetric.gain > 0 else -1.0
     T, L, scale = symmetric.lags[0], symmetric.delay, float(np.std(problem.y)) or 1.0
 
@@ -90,7 +92,7 @@ def fit_directions(record: Record, steps: Steps, symmetric: Fit) -> tuple[Direct
     columns = basis(best.x)
     coefficients = np.linalg.lstsq(columns, problem.y, rcond=None)[0]
     left = problem.y - columns @ coefficients
-    gain, (T_up, T_down, delay) = float(coefficients[-1]), (*np.exp(best.x[:2]).tolist(), float(best.x[2]))
+    gain, (T_up, T_down), delay = float(coefficients[-1]), np.exp(best.x[:2]).tolist(), float(best.x[2])
     if gain * sign <= 0:
         return None
 
@@ -116,7 +118,7 @@ def fit_directions(record: Record, steps: Steps, symmetric: Fit) -> tuple[Direct
             rest=float(coefficients[0]),
             drift=float(coefficients[1]) if symmetric.nuisance == "drift" else 0.0,
             residuals=whole,
-            fit=100 * (1 - float(np.linalg.norm(left) / max(np.linalg.norm(problem.y - problem.y.mean()), 1e-300))),
+            fit=problem.explained(left),
             rmse=float(np.sqrt(np.mean(left**2))),
             correlation=intervals.correlation(left),
             settled=float((record.time[-1] - steps.list[-1][0] - delay) / values[which]),

@@ -7,6 +7,7 @@ import numpy as np
 
 from loopbook.identification.models import Structure
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.process.transfer_function import Process
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Fit(ShownAsTable):
         return self.parameters[-1].value
 
     @property
-    def process(self):
+    def process(self) -> Process:
         """The model as a Process."""
         return self.structure.process(self.gain, self.lags, self.delay)
 

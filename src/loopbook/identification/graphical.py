@@ -17,7 +17,7 @@ from loopbook.records.steps import find_steps
 
 
 @dataclass(frozen=True)
-class Reading:
+class GraphicalReading:
     """What one rule reads off a record.
 
     values: by name (Kp or Kv, T, L); empty where the rule refuses, with the reason.
@@ -63,7 +63,7 @@ def _falls(record: Record) -> bool:
     return bool((record.y[-last:].mean() - record.y[before].mean()) * (record.u[-1] - record.u[0]) < 0)
 
 
-def readings(record: Record) -> list[Reading]:
+def graphical_readings(record: Record) -> list[GraphicalReading]:
     """Every graphical rule on a record's first step, with the reason where it refuses.
 
     A process with a negative gain is read with the input turned round.
@@ -89,7 +89,7 @@ def readings(record: Record) -> list[Reading]:
     for rule, source, read in rules:
         try:
             values = {name: sign * v if name in ("Kp", "Kv") else v for name, v in read().items()}
-            found.append(Reading(rule, source, values))
+            found.append(GraphicalReading(rule, source, values))
         except (ExperimentError, DataError) as error:
-            found.append(Reading(rule, source, {}, error.reason))
+            found.append(GraphicalReading(rule, source, {}, error.reason))
     return found

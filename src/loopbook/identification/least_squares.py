@@ -24,7 +24,7 @@ WELL_POSED = 1e-6  # of the scaled normal equations' determinant
 NUISANCES = ("rest", "drift", "start")
 
 
-class Problem:
+class FitProblem:
     """One structure on one record: residuals for given lags and dead time, the rest eliminated."""
 
     def __init__(self, record: Record, structure: Structure, steps: Steps, nuisance: str, fixed: Mapping[str, float]):
@@ -45,7 +45,7 @@ class Problem:
         found += [self.structure.response(self.time, steps, lags, delay) for steps in self.others.values()]
         return np.column_stack(found)
 
-    def eliminated(self, lags, delay) -> tuple[np.ndarray, np.ndarray]:
+    def eliminated(self, lags: tuple[float, ...], delay: float) -> tuple[np.ndarray, np.ndarray]:
         """(residuals, coefficients), the gain being the last coefficient."""
         answer = self.structure.response(self.time, self.steps.list, lags, delay)
         columns = self.columns(lags, delay)
@@ -56,6 +56,11 @@ class Problem:
         basis = np.column_stack([columns, answer])
         coefficients = linear(basis, self.y)
         return self.y - basis @ coefficients, coefficients
+
+    def explained(self, residuals: np.ndarray) -> float:
+        """100 (1 - |residual| / |y - mean|), in percent."""
+        whole = float(np.linalg.norm(self.y - self.y.mean()))
+        return 100 * (1 - float(np.linalg.norm(residuals)) / max(whole, 1e-300))
 
     def lags(self, theta: np.ndarray) -> tuple[float, ...]:
         """Time constants from the search variables: log T, then the ratio T2/T1 in (0, 1]."""
@@ -81,8 +86,9 @@ class Problem:
         sampling = self.record.sampling
         delays = np.concatenate([[0.0], np.geomspace(min(sampling, 0.4 * self.length), 0.5 * self.length, 11)])
         logs = np.log(np.geomspace(max(sampling, self.length / 500), 3 * self.length, 12))
-        grids = {0: [delays], 1: [logs, delays], 2: [logs, (0.15, 0.6), delays]}[self.structure.lags]
-        grids = [[self.pinned()[i]] if i in self.pinned() else grid for i, grid in enumerate(grids)]
+        axes = [*(logs, np.array([0.15, 0.6]))[: self.structure.lags], delays]
+        pinned = self.pinned()
+        grids = [np.array([pinned[i]]) if i in pinned else axis for i, axis in enumerate(axes)]
         return np.array(np.meshgrid(*grids, indexing="ij")).reshape(len(grids), -1).T
 
     def rough_cost(self, theta: np.ndarray) -> float:
@@ -188,10 +194,10 @@ def fit_structure(
     steps = steps or find_steps(record)
     nuisance = nuisance or ("drift" if drifts(record, steps) else "rest")
     fixed = dict(fixed or {})
-    problem = Problem(record, structure, steps, nuisance, fixed)
+    problem = FitProblem(record, structure, steps, nuisance, fixed)
     lags, delay = problem.solve()
     if 0 < delay < NO_DELAY * record.sampling and "L" not in fixed:
-        problem = Problem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
+        problem = FitProblem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
         lags, delay = problem.solve()
     return _described(problem, lags, delay, fixed)
 
@@ -210,7 +216,7 @@ def drifts(record: Record, steps: Steps) -> bool:
     return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]
 
 
-def _described(problem: Problem, lags, delay: float, fixed: Mapping[str, float]) -> Fit:
+def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
     """Everything that is said of a fit, from its optimum."""
     from scipy.special import stdtrit
 
@@ -250,7 +256,7 @@ def _described(problem: Problem, lags, delay: float, fixed: Mapping[str, float])
         rest=float(coefficients[0]),
         drift=float(coefficients[1]) if problem.nuisance == "drift" else 0.0,
         residuals=whole,
-        fit=100 * (1 - float(np.linalg.norm(residuals) / max(np.linalg.norm(problem.y - problem.y.mean()), 1e-300))),
+        fit=problem.explained(residuals),
         rmse=float(np.sqrt(np.mean(residuals**2))),
         correlation=intervals.correlation(residuals),
         settled=float("inf") if structure.integrating else float(after / sum(lags)),

@@ -1,6 +1,6 @@
 """The model structures that a step record can support, each with its exact response to the recorded input."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate
@@ -34,7 +34,9 @@ class Structure:
             return _function("two_equal_lags")(after, (lags[0] + lags[1]) / 2)
         return _function(_RESPONSES[self])(after, *lags)
 
-    def response(self, time: np.ndarray, steps: list[tuple[float, float]], lags, delay: float) -> np.ndarray:
+    def response(
+        self, time: np.ndarray, steps: Sequence[tuple[float, float]], lags: tuple[float, ...], delay: float
+    ) -> np.ndarray:
         """Response of gain 1 to input steps [(instant in s, height)], each delayed by the dead time.
 
         Many steps, as a recorded ramp has them, go through `memory`: one pass for all.
@@ -46,7 +48,7 @@ class Structure:
             total += height * self.shape(time - instant - delay, lags)
         return total
 
-    def _course(self, tau: np.ndarray, steps: list[tuple[float, float]], lags: tuple[float, ...]) -> np.ndarray:
+    def _course(self, tau: np.ndarray, steps: Sequence[tuple[float, float]], lags: tuple[float, ...]) -> np.ndarray:
         """The sum over many steps, from the input itself, its integral and what the lags remember of it."""
         instants, heights = (np.array(part) for part in zip(*steps, strict=True))
         at = np.searchsorted(instants, tau, side="right")
@@ -61,14 +63,14 @@ class Structure:
             return levels - (T1 * first - T2 * second) / (T1 - T2)
         return levels - memory(instants, heights, lags[0], tau, at)
 
-    def process(self, gain: float, lags: tuple[float, ...], delay: float):
+    def process(self, gain: float, lags: tuple[float, ...], delay: float) -> Process:
         """The model as a `loopbook.process.transfer_function.Process`."""
         den = np.array([1.0])
         for lag in lags:
             den = np.polymul(den, [lag, 1.0])
         if self.integrating:
             den = np.polymul(den, [1.0, 0.0])
-        return Process([gain], den, delay)
+        return Process([gain], den.tolist(), delay)
 
 
 def memory(instants: np.ndarray, heights: np.ndarray, T: float, tau: np.ndarray, at: np.ndarray) -> np.ndarray:

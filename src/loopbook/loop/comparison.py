@@ -13,7 +13,7 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.margins import Margins
 from loopbook.loop.sampled import SampledLoop, SampledMargins
 from loopbook.numerics.signals import Signal
-from loopbook.response.step_metrics import StepMetrics, exact
+from loopbook.response.step_metrics import StepMetrics, exact_metrics
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class ComparedLoop:
     def step(self) -> StepMetrics:
         """Rise, settling, overshoot and peak of the reference response, convention `exact`."""
         y, _ = self.reference
-        return exact(y, 1.0, y.end)
+        return exact_metrics(y, 1.0, y.end)
 
     @cached_property
     def peak_input(self) -> float:

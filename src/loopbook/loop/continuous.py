@@ -22,13 +22,13 @@ from loopbook.controllers.regulator import Regulator
 from loopbook.loop.margins import Margins, margins
 from loopbook.loop.stability import BorderError, decay_rate, is_stable, unstable_roots
 from loopbook.loop.transfer import LoopError, LoopTransfer
-from loopbook.numerics.real_numbers import plain, real
+from loopbook.numerics.real_numbers import plain_number, real
 from loopbook.numerics.signals import HorizonError, Signal
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import DelayedSum, Process
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
-from loopbook.response.step_metrics import exact
+from loopbook.response.step_metrics import exact_metrics
 
 SETTLED = 1e-9
 AT_REST = 1e-10
@@ -131,6 +131,11 @@ class Loop:
             num, den = np.convolve(term.num, self._rows[1]), np.asarray(term.den)
             while den[-1] == 0 and num[-1] == 0 and len(den) > 1:
                 num, den = num[:-1], den[:-1]
+            if den[-1] == 0:
+                raise ResponseError(
+                    "the disturbance's path has poles that do not decay and are not the process's own: no regulator "
+                    "can hold it"
+                )
             total += num[-1] / den[-1]
         return float(total)
 
@@ -167,7 +172,7 @@ class Loop:
         has settled, which needs a stable loop. An unstable loop can be simulated over a given horizon.
         """
         if horizon is not None:
-            until = float(plain(horizon))
+            until = float(plain_number(horizon))
             return StepResponse(self, source, until, *self._answer(source, until))
         until = self.settling_horizon()
         final = self.final_values(source)
@@ -217,7 +222,7 @@ class StepResponse:
 
         Raises LoopError for an unstable loop, NotSettled for a horizon that is too short.
         """
-        return exact(self.y, self.final[0], min(self.horizon, self.y.end))
+        return exact_metrics(self.y, self.final[0], min(self.horizon, self.y.end))
 
     @cached_property
     def error(self) -> Signal:
@@ -228,7 +233,7 @@ class StepResponse:
     def _vanishing_error(self) -> Signal:
         left = (1.0 if self.source == "reference" else 0.0) - self.final[0]
         largest = max(abs(self.error.peak()[1]), abs(left))
-        if abs(left) > 1e-9 * max(largest, 1e-300):
+        if abs(left) > SETTLED * largest:
             raise LoopError(
                 f"the error tends to {left:.6g}, not to zero, so that its integral is infinite: the regulator has no "
                 "integral action that removes it"

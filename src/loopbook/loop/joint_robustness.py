@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 
 from derivations.loop import robustness as d
+from loopbook.loop.process_phase import NoSuchFrequency, frequency_at
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopTransfer
 from loopbook.numerics import horner
-from loopbook.process.frequency_response import NoSuchFrequency, frequency_at
+from loopbook.numerics.units import characteristic_time
 from loopbook.process.transfer_function import Process
 
 
@@ -58,7 +59,7 @@ def _grid(process: Process) -> np.ndarray:
     try:
         middle = frequency_at(process, -2.5)
     except NoSuchFrequency:
-        middle = max(abs(p) for p in process.poles) or 1.0
+        middle = 1 / characteristic_time(process.num, process.den, process.delay)
     coarse = middle * np.geomspace(1e-4, 1e3, 5400)
     return np.union1d(coarse, np.arange(0.05, 60, 0.05) / process.delay) if process.delay else coarse
 

@@ -98,7 +98,7 @@ def phase_crossovers(loop: LoopTransfer, floor: float | None = None) -> tuple[Ph
     for floor in (0.5, 0.1, 0.02, 1e-3, 1e-5, 1e-8, 1e-12):
         floor = max(floor, limit * (1 + 1e-6))
         found = (*at_zero, *_at(loop, loop.phase_crossovers(floor)))
-        if any(c.gain > 1 for c in found) or floor > 0.5:
+        if any(1 < c.gain <= 1 / floor for c in found) or floor > 0.5:
             break
     return found
 

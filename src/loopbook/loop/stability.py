@@ -22,7 +22,7 @@ import numpy as np
 
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.numerics import horner
-from loopbook.numerics.roots import count_right, undecided
+from loopbook.numerics.roots import clearly_left, count_right, undecided
 from loopbook.numerics.units import rounded_sum
 
 BORDER = 1e-9
@@ -114,6 +114,8 @@ def _rational(loop: LoopTransfer) -> int:
     total = rounded_sum(loop.den, loop.num)
     if not total[0]:
         raise BorderError(np.inf)
+    if clearly_left(total.tolist()):
+        return 0
     roots = np.roots(total)
     width = np.abs(np.array(loop.den))
     width[len(width) - len(loop.num) :] += np.abs(loop.num)

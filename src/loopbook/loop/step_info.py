@@ -12,7 +12,7 @@ from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation
-from loopbook.response.step_metrics import BAND, StepMetrics, StepMetricsError, exact, sampled
+from loopbook.response.step_metrics import BAND, StepMetrics, StepMetricsError, exact_metrics, sampled_metrics
 
 POINTS = 1000
 SETTLED = 1e-6  # what is left of the slowest mode of a sampled loop
@@ -38,16 +38,16 @@ def step_info(
     if convention not in ("exact", "sampled"):
         raise StepMetricsError(f"convention = {convention!r}: exact or sampled")
     if isinstance(system, Simulation):
-        return sampled(system.y, system.t, final, band)
+        return sampled_metrics(system.y, system.t, final, band)
     if not isinstance(system, Process | Loop | SampledLoop | StepResponse):
-        return sampled(system, t, final, band)
+        return sampled_metrics(system, t, final, band)
     y, value = _response(system)
-    found = exact(y, value, y.end, band=band)
+    found = exact_metrics(y, value, y.end, band=band)
     if convention == "exact":
         return found
     until = min(2 * max(found.settling, found.peak_time), y.end)
     times = np.linspace(0.0, until, POINTS + 1) if t is None else np.asarray(t, dtype=float)
-    return sampled(y(times), times, final, band)
+    return sampled_metrics(y(times), times, final, band)
 
 
 def _response(system: Any) -> tuple[Signal, float]:

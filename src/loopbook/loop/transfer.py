@@ -27,7 +27,7 @@ from loopbook.numerics.imaginary_axis import (
     turned,
     turned_on_axis,
 )
-from loopbook.process.transfer_function import ProcessError, coefficients
+from loopbook.process.transfer_function import ProcessError, checked_coefficients
 
 TOUCHES = 1e-7
 BESIDE = 1e-13
@@ -52,7 +52,7 @@ class LoopTransfer:
     hidden: int = field(init=False, default=0, repr=False)
 
     def __post_init__(self) -> None:
-        num, den = coefficients(self.num, "num"), coefficients(self.den, "den")
+        num, den = checked_coefficients(self.num, "num"), checked_coefficients(self.den, "den")
         if den == (0.0,):
             raise ProcessError("den is zero: a transfer function needs a denominator")
         hidden = 0
@@ -210,7 +210,7 @@ class LoopTransfer:
         return 1.001 * max(float(roots.max(initial=0.0)), 1e3 * radius if not self.delay else 0.0, 1e-9 * radius)
 
     @cached_property
-    def _beginning(self) -> float:
+    def beginning(self) -> float:
         """A frequency below which nothing turns but what lies at s = 0."""
         paces = [abs(r) for r in (*self.zeros, *self.poles) if r] + ([1 / self.delay] if self.delay else [])
         return 1e-14 * min(paces, default=1.0)
@@ -219,16 +219,16 @@ class LoopTransfer:
         """The w in (a, b), where the phase is monotone, at which it is an odd multiple of pi."""
         from scipy.optimize import brentq
 
-        low, high = (a * (1 + BESIDE) if a else min(self._beginning, b / 2)), b * (1 - BESIDE)
+        low, high = (a * (1 + BESIDE) if a else min(self.beginning, b / 2)), b * (1 - BESIDE)
         if not low < high:
             return []
-        start, end = self._phase_at(low), self._phase_at(high)
+        start, end = self.phase_at(low), self.phase_at(high)
         first, last = sorted(((start / np.pi - 1) / 2, (end / np.pi - 1) / 2))
         found = []
         for k in range(math.ceil(first), math.floor(last) + 1):
             level = (2 * k + 1) * math.pi
             if (start - level) * (end - level) < 0:
-                gap = lambda x, c=level: self._phase_at(math.exp(x)) - c  # noqa: E731
+                gap = lambda x, c=level: self.phase_at(math.exp(x)) - c  # noqa: E731
                 found.append(math.exp(brentq(gap, math.log(low), math.log(high), xtol=1e-14, rtol=1e-14)))
         return [self._polished(w) for w in found]
 
@@ -242,7 +242,7 @@ class LoopTransfer:
             if r.real
         ]
 
-    def _phase_at(self, w: float) -> float:
+    def phase_at(self, w: float) -> float:
         """`phase` for one w, in Python's numbers: root finding asks for one at a time."""
         on_axis = sum(turned_on_axis(r.imag, w) for r in self.zeros.tolist() if not r.real)
         on_axis -= sum(turned_on_axis(r.imag, w) for r in self.poles.tolist() if not r.real)

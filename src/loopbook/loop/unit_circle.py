@@ -10,15 +10,16 @@ the values at its ends tell every crossing. This holds for fast sampling too, wh
 z = 1 and polynomials in cos(a) would lose it to rounding.
 """
 
-from collections.abc import Callable
+import cmath
+import math
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
 ON_CIRCLE = 1e-9
-AT_ONE = 1e-7
-FINEST = 1e-10
+ROUNDING = 4e-16
+FINEST = 1e-7
 
 
 class CircleTransfer:
@@ -30,7 +31,7 @@ class CircleTransfer:
         lead = int(np.flatnonzero(den)[0])
         self.num, self.den = np.asarray(num, dtype=float), np.asarray(den, dtype=float)
         self.k, self.d = float(self.num[first] / self.den[lead]), first - lead
-        self.zeros, self.poles = (np.where(abs(r - 1) < AT_ONE, 1.0, r) for r in map(np.asarray, (zeros, poles)))
+        self.zeros, self.poles = np.asarray(zeros), np.asarray(poles)
 
     def inverse(self) -> "CircleTransfer":
         """den/num."""
@@ -68,10 +69,11 @@ class CircleTransfer:
         near = np.where(passed, abs(1 - size), np.minimum(*ends))
         return near, np.where(opposite, 1 + size, np.maximum(*ends))
 
-    def curvature(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """What |d2/da2 log G| cannot exceed on [a, b]."""
+    def curvature(self, a: np.ndarray, b: np.ndarray, of_phase: bool = False) -> np.ndarray:
+        """What |d2/da2 log G| cannot exceed on [a, b]; of its phase, in which roots on the circle turn evenly."""
         total = np.zeros(len(a))
         for roots in (self.zeros, self.poles):
+            roots = roots[~on_circle(roots)] if of_phase else roots
             near, _ = self.distances(roots, a, b)
             with np.errstate(divide="ignore"):
                 total = total + (abs(roots)[:, None] / near**2).sum(axis=0)
@@ -80,63 +82,126 @@ class CircleTransfer:
     @cached_property
     def start(self) -> float:
         """An angle below which nothing but a pole or zero at z = 1 is felt."""
-        far = [abs(1 - r) for r in (*self.zeros, *self.poles) if abs(1 - r) > AT_ONE]
+        far = [abs(1 - r) for r in (*self.zeros, *self.poles) if r != 1]
         return 1e-4 * min([*far, 1.0])
 
-    def _monotone(self, part: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-        """Cuts of [start, pi] between which that part of log G is proved monotone, or which are finer than matters."""
+    def _monotone(self, of_phase: bool) -> np.ndarray:
+        """Cuts of [start, pi] between which log|G|, or its phase, is proved monotone, or finer than matters."""
         a = np.concatenate([np.geomspace(self.start, np.pi, 60)])
-        axis = [abs(np.angle(r)) for r in (*self.zeros, *self.poles) if abs(abs(r) - 1) < ON_CIRCLE]
+        axis = [abs(np.angle(r)) for roots in (self.zeros, self.poles) for r in roots[on_circle(roots)]]
         a = np.unique(np.concatenate([a, [x for x in axis if self.start < x < np.pi]]))
         low, high, done = a[:-1], a[1:], [a]
         while low.size:
             middle = (low + high) / 2
-            slope = part(self.log_slope(middle))
-            open_ = (abs(slope) <= self.curvature(low, high) * (high - low) / 2) & (high - low > FINEST * high)
+            slope = self.log_slope(middle)
+            slope, bend = slope.imag if of_phase else slope.real, self.curvature(low, high, of_phase)
+            open_ = (abs(slope) <= bend * (high - low) / 2) & (high - low > FINEST * high)
             low, high, middle = low[open_], high[open_], middle[open_]
             done.append(middle)
             low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
         return np.unique(np.concatenate(done))
 
     @cached_property
+    def _lists(self) -> tuple[list[complex], list[complex]]:
+        return self.zeros.tolist(), self.poles.tolist()
+
+    def _log_magnitude(self, a: float) -> float:
+        """log|G| for one angle, in Python's numbers: root finding asks for one at a time."""
+        back, (zeros, poles) = cmath.exp(-1j * a), self._lists
+        above, below = math.prod(abs(1 - z * back) for z in zeros), math.prod(abs(1 - p * back) for p in poles)
+        return math.log(abs(self.k) * above / below)
+
+    def _phase_at(self, a: float) -> float:
+        """`phase` for one angle."""
+        back, (zeros, poles) = cmath.exp(-1j * a), self._lists
+        start = 0.0 if self.k > 0 else -math.pi
+        return (
+            start - self.d * a + sum(_turned_at(z, a, back) for z in zeros) - sum(_turned_at(p, a, back) for p in poles)
+        )
+
+    @cached_property
     def gain_crossovers(self) -> np.ndarray:
         """All angles in (0, pi) with |G| = 1, ascending."""
         from scipy.optimize import brentq
 
-        cuts = self._monotone(np.real)
+        cuts = self._monotone(of_phase=False)
         with np.errstate(divide="ignore"):
             level = np.log(abs(self(cuts)))
         found = [
-            brentq(lambda x: float(np.log(abs(self(np.array(x))))), a, b, xtol=1e-15 * b, rtol=1e-14)
+            brentq(self._log_magnitude, a, b, xtol=1e-15 * b, rtol=1e-14)
             for (a, b), (low, high) in zip(pairwise(cuts), pairwise(level), strict=True)
             if np.isfinite(low) and np.isfinite(high) and low * high < 0
         ]
         return np.array(found)
+
+    def roots_outside(self) -> int:
+        """How many roots of num + den lie outside the unit circle, by the turning of 1 + G from a = 0 to pi.
+
+        As in `stability`: where |G| < 1 the argument of 1 + G stays within a right angle of 0, where |G| > 1 of that of
+        G, and both meet at the gain crossovers. Raises ValueError where a root lies on the circle within 1e-9.
+        """
+        a = self.gain_crossovers
+        ends = np.concatenate([[self.start], a, [np.pi]])
+        between = (ends[:-1] + ends[1:]) / 2
+        loud = abs(self(between)) > 1
+        turns = 0.0
+        for at, falls, passes in zip(a, loud[:-1], loud[:-1] != loud[1:], strict=True):
+            whole = float(self.phase(np.array(at))) / (2 * np.pi)
+            if passes and abs(abs(whole - round(whole)) - 0.5) < ON_CIRCLE:
+                raise ValueError(f"a root lies on the unit circle at the angle {at:.6g}")
+            turns += passes * round(whole) * (1 if falls else -1)
+        for p in self.poles[on_circle(self.poles)]:
+            if (abs(self.zeros - p) <= ON_CIRCLE * abs(1 - p)).any():
+                raise ValueError(f"a root on the unit circle at z = {p:.6g} is cancelled: the loop cannot move it")
+        turns += (self._half_turns(np.pi, -1.0, loud[-1]) - self._half_turns(self.start, 1.0, loud[0])) / 2
+        return int(((abs(self.poles) > 1) & ~on_circle(self.poles)).sum() - round(2 * turns))
+
+    def _half_turns(self, a: float, z: float, loud: bool) -> int:
+        """The argument of 1 + G at z = 1 or -1, where G is real, in half turns; poles and zeros there as if inside."""
+        here = int((self.poles == z).sum()) - int((self.zeros == z).sum())
+        if not here and abs(1 + float(self(np.array(a if z < 0 else 0.0)).real)) < ON_CIRCLE:
+            raise ValueError(f"a root lies on the unit circle at z = {z:g}")
+        return round(float(self.phase(np.array(a))) / np.pi + here / 2) if loud else 0
 
     @cached_property
     def phase_crossovers(self) -> np.ndarray:
         """All angles in [0, pi] with G real and negative, ascending; the ends where G is finite there."""
         from scipy.optimize import brentq
 
-        cuts = self._monotone(np.imag)
+        cuts = self._monotone(of_phase=True)
         low, high = cuts[:-1] + 1e-13 * cuts[1:], cuts[1:] - 1e-13 * cuts[1:]
         turns = np.sort((np.array([self.phase(low), self.phase(high)]) / np.pi - 1) / 2, axis=0)
         first, last = np.ceil(turns[0]), np.floor(turns[1])
         found = []
         for i in np.flatnonzero(first <= last):
             for k in np.arange(first[i], last[i] + 1):
-                gap = lambda x, level=(2 * k + 1) * np.pi: float(self.phase(np.array(x))) - level  # noqa: E731
+                gap = lambda x, level=(2 * k + 1) * math.pi: self._phase_at(x) - level  # noqa: E731
                 if gap(low[i]) * gap(high[i]) < 0:
                     found.append(brentq(gap, low[i], high[i], xtol=1e-15 * cuts[i + 1]))
         ends = [x for x in (0.0, np.pi) if np.isfinite(v := self(np.array(x))) and v.real < 0 and abs(v) > 1e-12]
         return np.unique(np.array([*(x for x in found if x < np.pi * (1 - 1e-9)), *ends]))
 
 
+def on_circle(r: np.ndarray) -> np.ndarray:
+    """Which roots lie on the unit circle within rounding, measured by how far from z = 1 they are."""
+    return abs(abs(r) - 1) <= np.maximum(ON_CIRCLE * abs(1 - r), ROUNDING)
+
+
+def _turned_at(r: complex, a: float, back: complex) -> float:
+    """arg(1 - r exp(-ja)) for one root and one angle, continuous as in `_turned`."""
+    if abs(abs(r) - 1) <= max(ON_CIRCLE * abs(1 - r), ROUNDING):
+        x = a - cmath.phase(r)
+        return (math.pi / 2 if x >= 0 else -math.pi / 2) - x / 2
+    if abs(r) < 1:
+        return cmath.phase(1 - r * back)
+    return cmath.phase(-r) - a + cmath.phase(1 - 1 / (back * r))
+
+
 def _turned(roots: np.ndarray, a: np.ndarray) -> np.ndarray:
     """arg(1 - r exp(-ja)) summed over the roots, continuous but for roots on the circle."""
     total = np.zeros(np.shape(a))
     for r in roots:
-        if abs(abs(r) - 1) < ON_CIRCLE:
+        if on_circle(r):
             x = a - np.angle(r)
             total = total + np.where(x >= 0, np.pi / 2, -np.pi / 2) - x / 2
         elif abs(r) < 1:

@@ -18,7 +18,7 @@ from loopbook.numerics import units
 from loopbook.numerics.state_space import observer_form
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.process.transfer_function import Process, ProcessError
-from loopbook.response.step_metrics import StepMetrics, exact
+from loopbook.response.step_metrics import StepMetrics, exact_metrics
 
 DIED_OUT = 1e-11
 
@@ -75,4 +75,4 @@ def metrics(closed: Process) -> StepMetrics:
     """
     horizon = time_to_settle(closed)
     y = open_loop_step(closed, horizon).delayed(closed.delay)
-    return exact(y, closed.static_gain, y.end)
+    return exact_metrics(y, closed.static_gain, y.end)

@@ -19,6 +19,7 @@ from loopbook.numerics.state_space import balancing
 DEGREE = 24
 REACH = 8.0
 MOST_CELLS = 200_000
+MANY_STATES = 9  # beyond, p systems of n cost less than one of p n
 
 
 class ResponseError(LoopbookError):
@@ -115,12 +116,34 @@ def cell_operator(system: DelayEquation, length: float) -> np.ndarray:
     _, a, _ = radau()
     n, p = len(system.A), DEGREE
     integral = length * a
-    matrix = np.eye(p * n) - (integral[:, None, :, None] * system.A[:, None, :]).reshape(p * n, p * n)
     right = np.empty((p, n, n + p + 1))
     right[:, :, :n] = np.eye(n)
     right[:, :, n:-1] = integral[:, None, :] * system.b[:, None]
     right[:, :, -1] = integral.sum(axis=1)[:, None] * system.e
+    if n > MANY_STATES:
+        return _node_by_node(system.A, length, right)
+    matrix = np.eye(p * n) - (integral[:, None, :, None] * system.A[:, None, :]).reshape(p * n, p * n)
     return np.linalg.solve(matrix, right.reshape(p * n, n + p + 1)).reshape(p, n, n + p + 1)
+
+
+@cache
+def _triangular_butcher() -> tuple[np.ndarray, np.ndarray]:
+    """(T, Q): the Butcher matrix is Q T Q^H, T upper triangular, Q unitary (Schur)."""
+    from scipy.linalg import schur
+
+    return schur(radau()[1], output="complex")
+
+
+def _node_by_node(A: np.ndarray, length: float, right: np.ndarray) -> np.ndarray:
+    """X - length (a x A) X = right, from the last row of the triangular form of a up: p systems of n unknowns."""
+    T, Q = _triangular_butcher()
+    X = np.tensordot(Q.conj().T, right, axes=1)
+    AX = np.zeros_like(X)
+    for i in reversed(range(DEGREE)):
+        known = X[i] + length * np.tensordot(T[i, i + 1 :], AX[i + 1 :], axes=1)
+        X[i] = np.linalg.solve(np.eye(len(A)) - length * T[i, i] * A, known)
+        AX[i] = A @ X[i]
+    return np.tensordot(Q, X, axes=1).real
 
 
 def outputs(system: DelayEquation, G: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ more linear equation for the values at the nodes.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
@@ -26,6 +26,7 @@ from loopbook.numerics.collocation import (
 RESOLVED = 3e-14
 ROUNDED = 1e-9
 WORN_OFF = 32
+PATIENCE = 4
 NOTHING = 1e-17
 
 
@@ -43,11 +44,13 @@ def smooth_from(system: DelayEquation) -> int | None:
 @dataclass(frozen=True)
 class _Cell:
     """forward: (x at the start, v at the start and at nodes that lie in the past, 1) -> outputs at the start and the
-    nodes, x at the end. past: which nodes those are, as times after the cell's start [s].
+    nodes, x at the end. past: which nodes those are, as times after the cell's start [s]. readings: by the length of
+    the cell before, what its coefficients are multiplied with to read it there.
     """
 
     forward: np.ndarray
     past: np.ndarray
+    readings: dict[float, np.ndarray] = field(default_factory=dict)
 
 
 def _cell(system: DelayEquation, length: float) -> _Cell:
@@ -78,15 +81,17 @@ def continued(
     """
     cells = cache(lambda length: _cell(system, length))
     known = _Known(lengths.tolist(), list(coefficients))
-    length, done = 2 * system.delay, 0.0
+    length, done, wait = 2 * system.delay, 0.0, 0
     while done < span:
         if len(known.rows) > MOST_CELLS:
             raise ResponseError("the horizon holds too many periods of the fastest mode: shorten it")
-        values, x, length = _accepted(cells, system, known, x, scale, length)
+        tried = length
+        values, x, length = _accepted(cells, system, known, x, scale, tried)
         known.lengths.append(length)
         known.rows.append(values @ radau()[2].T)
         scale = np.maximum(scale, np.abs(values).max(axis=1))
-        done, length = done + length, 2 * length
+        done, wait = done + length, PATIENCE if length < tried else wait - 1
+        length = 2 * length if wait <= 0 else length
     return np.array(known.lengths), np.array(known.rows)
 
 
@@ -107,7 +112,7 @@ def _accepted(
     while True:
         cell = cells(length)
         with np.errstate(over="ignore", invalid="ignore"):
-            all_values = cell.forward @ np.concatenate([x, known.fed_back(cell.past), [1.0]])
+            all_values = cell.forward @ np.concatenate([x, known.fed_back(cell), [1.0]])
             values = all_values[:outputs_size].reshape(-1, DEGREE + 1)
             tail = float((np.abs(values @ last_rows).max(axis=1) / np.where(scale > 0, scale, 1.0)).max())
         found = values, all_values[outputs_size:], length
@@ -129,14 +134,19 @@ class _Known:
     lengths: list[float]
     rows: list[np.ndarray]
 
-    def fed_back(self, times: np.ndarray) -> np.ndarray:
-        """Output 0 at `times` <= 0, counted from the end [s]."""
+    def fed_back(self, cell: _Cell) -> np.ndarray:
+        """Output 0 at the times of `cell.past`, counted from the end [s]."""
+        times, last = cell.past, self.lengths[-1]
+        if -times[0] <= last:  # all in the cell before
+            if last not in cell.readings:
+                cell.readings[last] = legendre.legvander(2 * (times + last) / last - 1, DEGREE)
+            return cell.readings[last] @ self.rows[-1][0]
         starts, first = [0.0], len(self.rows)
         while starts[-1] > times[0]:
             first -= 1
             starts.append(starts[-1] - self.lengths[first])
         edges = np.array(starts[::-1])
         rows = np.array([row[0] for row in self.rows[first:]])
-        cell = np.searchsorted(edges[1:-1], times, side="right")
-        x = 2 * (times - edges[cell]) / np.diff(edges)[cell] - 1
-        return (legendre.legvander(x, DEGREE) * rows[cell]).sum(axis=1)
+        i = np.searchsorted(edges[1:-1], times, side="right")
+        x = 2 * (times - edges[i]) / np.diff(edges)[i] - 1
+        return (legendre.legvander(x, DEGREE) * rows[i]).sum(axis=1)

@@ -22,7 +22,7 @@ from loopbook.numerics.collocation import (
 from loopbook.numerics.long_cells import RESOLVED, ROUNDED, continued, smooth_from
 from loopbook.numerics.signals import Signal
 
-MANY = 64
+MANY = 256
 MOST_VALUES = 12_000_000
 
 __all__ = ["DelayEquation", "ResponseError", "solve"]

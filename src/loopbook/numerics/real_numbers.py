@@ -16,18 +16,18 @@ import numpy as np
 EXPECTED = "a real number is expected (int, float, Fraction, Decimal, a NumPy or SymPy number)"
 
 
-def plain(value: Any) -> int | float | Fraction:
+def plain_number(value: Any) -> int | float | Fraction:
     """The same number as an int, a float or a Fraction. Raises TypeError for anything that is no real number.
 
     >>> from decimal import Decimal
-    >>> plain(np.int64(3)), plain(Decimal("0.1")), plain(np.float32(0.5))
+    >>> plain_number(np.int64(3)), plain_number(Decimal("0.1")), plain_number(np.float32(0.5))
     (3, Fraction(1, 10), 0.5)
     """
     kind = type(value)
     if kind is float or kind is int or kind is Fraction:
         return value
     if isinstance(value, np.ndarray) and value.ndim == 0:
-        return plain(value.item())
+        return plain_number(value.item())
     if isinstance(value, bool | np.bool_ | str | bytes):
         raise TypeError(f"{value!r} is no number: {EXPECTED}")
     if isinstance(value, Decimal):
@@ -51,7 +51,7 @@ def real(value: Any, name: str, error: type[ValueError] = ValueError, unit: str 
     2.5
     """
     try:
-        number = float(plain(value))
+        number = float(plain_number(value))
     except (TypeError, OverflowError):
         raise error(f"{name} = {value!r}: {EXPECTED}") from None
     if not math.isfinite(number):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.exact import function
+from loopbook.numerics.rational_numbers import function
 
 
 class DifferenceEquationError(LoopbookError):
@@ -66,7 +66,7 @@ def recursion(equation: Any, values: Mapping[str, Any], number: Callable | None 
     return Recursion(target, tuple((s.func.__name__, int(d), g) for s, d, g in parts))
 
 
-def simulate(equations: Sequence[Recursion], inputs: Mapping[str, Sequence[Any]], steps: int) -> dict[str, list]:
+def run_recursion(equations: Sequence[Recursion], inputs: Mapping[str, Sequence[Any]], steps: int) -> dict[str, list]:
     """Run the recursions together for k = 0, ..., steps - 1; everything before k = 0 is zero.
 
     equations: in the order in which a regulator executes them (measure y, then compute u). inputs: the other signals
@@ -74,7 +74,7 @@ def simulate(equations: Sequence[Recursion], inputs: Mapping[str, Sequence[Any]]
     signal that nothing computes, a short input, and a present sample that is computed only later in the same step.
 
     >>> y = Recursion("y", (("y", 1, 0.5), ("r", 1, 0.5)))
-    >>> simulate([y], {"r": [1] * 4}, 4)["y"]
+    >>> run_recursion([y], {"r": [1] * 4}, 4)["y"]
     [0, 0.5, 0.75, 0.875]
     """
     order = [e.target for e in equations]

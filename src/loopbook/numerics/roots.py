@@ -12,6 +12,26 @@ from itertools import pairwise
 import numpy as np
 
 ROUNDING = 1e-12
+DOUBTFUL = 1e-2
+
+
+def clearly_left(p: list[float]) -> bool:
+    """Do all roots lie to the left, by Routh's array, with no difference in it small enough to be doubted?
+
+    >>> clearly_left([1.0, 3.0, 3.0, 1.0]), clearly_left([1.0, 1.0, 1.0, 1.0 - 1e-9])
+    (True, False)
+    """
+    if not p[0] or min(c / p[0] for c in p) <= 0:
+        return False
+    above, row = [c / p[0] for c in p[::2]], [c / p[0] for c in p[1::2]]
+    while row:
+        factor, below = above[0] / row[0], []
+        for a, b in zip(above[1:], [*row[1:], 0.0], strict=False):
+            below.append(a - factor * b)
+            if below[-1] <= DOUBTFUL * a:
+                return False
+        above, row = row, below
+    return True
 
 
 def undecided(p: np.ndarray, width: np.ndarray, roots: np.ndarray, border: float) -> tuple[float | None, bool]:
@@ -23,7 +43,8 @@ def undecided(p: np.ndarray, width: np.ndarray, roots: np.ndarray, border: float
     if not roots.size:
         return None, True
     w = np.concatenate([abs(roots.imag), abs(roots)])
-    least = np.abs(np.polyval(p, 1j * w)) / np.polyval(width, w)
+    room = np.polyval(width, w)  # zero where p(0) = 0: a root at the origin
+    least = np.abs(np.polyval(p, 1j * w)) / np.where(room, room, 1.0)
     near = np.append(abs(roots.real) <= border * abs(roots), np.zeros(len(roots), dtype=bool))
     on_axis = np.flatnonzero((near | (least <= ROUNDING)) & (np.arange(len(w)) < len(roots)))
     if on_axis.size:

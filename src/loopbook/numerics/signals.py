@@ -112,7 +112,7 @@ class Signal:
         end = min(self.end, other.end)
         edges = np.unique(np.concatenate([self.edges, other.edges]))
         edges = edges[edges <= end]
-        keep = np.append(True, np.diff(edges) > 1e-13 * max(abs(end), 1e-300))
+        keep = np.append(True, np.diff(edges) > 1e-13 * abs(end))
         edges = edges[keep]
         a, b = self.on(edges), other.on(edges)
         return Signal(edges, _padded(a.coefficients, b) + _padded(b.coefficients, a))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from loopbook.numerics.units import octaves
+from loopbook.numerics.units import characteristic_time, in_units, octaves, power_of_two
 
 
 @dataclass(frozen=True)
@@ -39,21 +39,25 @@ def _as_if_no_integrator(a: np.ndarray) -> np.ndarray:
 
     An integrator's own row is zero, which balances with anything.
     """
+    if a[-1]:
+        return a
     slowest = 2.0 ** min(octaves(a.tolist()), default=0.0)
     last = int(np.flatnonzero(a)[-1])
     return np.append(a[: last + 1], a[last] * slowest ** np.arange(1, len(a) - last))
 
 
-def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> StateSpace:
+def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]], span: float = 0.0) -> StateSpace:
     """The outputs of several proper transfer functions nums[j]/den added up, with n = degree of den states.
 
-    den, nums: descending coefficients; each num at most as long as den. Raises ValueError otherwise.
+    den, nums: descending coefficients; each num at most as long as den. span [s]: what happens in so short a time is to
+    be exact in each number: no state is taken slower than that. Raises ValueError for an improper function.
     """
-    a = np.asarray(den, dtype=float)
-    n = len(a) - 1
+    n = len(den) - 1
     if any(len(num) > n + 1 for num in nums):
         raise ValueError("an improper transfer function has no state space")
-    rows = np.array([np.pad(num, (n + 1 - len(num), 0)) for num in nums], dtype=float) / a[0]
+    time = characteristic_time((1.0,), den, span)
+    a = np.array(in_units(den, time))
+    rows = np.array([(0.0,) * (n + 1 - len(num)) + in_units(num, time) for num in nums]) / a[0]
     a = a / a[0]
     D = rows[:, :1].T
     B = (rows[:, 1:] - rows[:, :1] * a[1:]).T
@@ -61,6 +65,11 @@ def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]]) -> Stat
     A[:, :1] -= a[1:, None] if n else 0.0
     C = np.eye(1, n)
     if n:
-        scale = balancing(np.hstack([-_as_if_no_integrator(a)[1:, None], A[:, 1:]]))
+        loop = A.copy()
+        loop[:, 0] -= _as_if_no_integrator(a)[1:] - a[1:]
+        scale = balancing(loop)
+        if span:
+            steps = np.maximum(scale[1:] / scale[:-1], power_of_two(time / span))
+            scale = scale[0] * np.cumprod(np.append(1.0, steps))
         A, B, C = A * scale / scale[:, None], B / scale[:, None], C * scale
-    return StateSpace(A, B, C, D)
+    return StateSpace(A / time, B / time, C, D)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from loopbook.controllers.rst import NEAR, PlacementError, Polynomial, Rst, _row, with_zeros, zeros_of
+from loopbook.numerics.real_numbers import positive
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ def well_damped(zeros: np.ndarray, damping: float) -> np.ndarray:
     return (abs(zeros) < 1) & (zeta >= damping)
 
 
-def place(
+def place_numerically(
     B: Polynomial,
     A: Polynomial,
     P: Polynomial,
@@ -52,13 +53,17 @@ def place(
     polynomials starting with 1 (`with_zeros`). h [s]. integrators: how many the regulator has. cancel_damping: cancel
     the zeros of B at least so well damped (see `well_damped`); None cancels none.
     Raises PlacementError where A (1 - z^-1)^integrators and B share a factor, by name; where B has no delay or is zero;
-    where P or A_o does not start with 1; where P(1) or B(1) is zero. A long P makes R longer, never an error.
+    where P or A_o does not start with 1; where P(1) or B(1) is zero; where h is not positive. A long P makes R longer,
+    never an error.
 
-    >>> design = place([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
+    >>> design = place_numerically([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
     >>> [float(round(c, 9)) for c in (*design.regulator.R, *design.regulator.S, *design.regulator.T)]
     [1.0, -1.0, 3.0, -1.6, 1.4]
     """
     A, B, P, observer = _row(A, "A"), _row(B, "B"), _row(P, "P"), _row(observer, "observer")
+    h = positive(h, "h", PlacementError, " s")
+    if not (isinstance(integrators, int | np.integer) and integrators >= 0):
+        raise PlacementError(f"integrators = {integrators!r}: a whole number, 0 or more, is expected")
     if A[0] == 0:
         raise PlacementError(f"A = {A.tolist()} must have a term without delay")
     A, B = A / A[0], B / A[0]

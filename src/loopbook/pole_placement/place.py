@@ -9,7 +9,7 @@ from derivations.algebra.delay_polynomials import Z, polynomial
 from derivations.pole_placement import diophantine
 from loopbook.controllers.rst import PlacementError, with_zeros
 from loopbook.pole_placement.numeric import Placement
-from loopbook.pole_placement.numeric import place as place_in_numbers
+from loopbook.pole_placement.numeric import place_numerically as place_in_numbers
 from loopbook.process.sampled import SampledProcess
 
 
@@ -52,4 +52,4 @@ def _in_letters(process: SampledProcess, poles: list[Any], integrators: int) -> 
     a = [sympy.Symbol(f"a_{i}") if value else 0 for i, value in enumerate(A)][1:]
     b = [sympy.Symbol(f"b_{i}") if value else 0 for i, value in enumerate(B)]
     P = sympy.Mul(*(1 - sympy.nsimplify(pole, rational=True) / Z for pole in poles))
-    return diophantine.place(polynomial([1, *a]), polynomial(b), P, diophantine.integrators(integrators))
+    return diophantine.place_exactly(polynomial([1, *a]), polynomial(b), P, diophantine.integrators(integrators))

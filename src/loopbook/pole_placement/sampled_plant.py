@@ -7,7 +7,7 @@ from typing import Any
 
 from derivations.algebra.delay_polynomials import coefficients, polynomial
 from derivations.sampling.zero_order_hold import dead_time_in_samples, two_lags, zero_order_hold
-from loopbook.numerics.exact import decimal, rational
+from loopbook.numerics.rational_numbers import decimal, rational
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from loopbook.numerics.exact import decimal
+from loopbook.numerics.rational_numbers import decimal
 from loopbook.process.transfer_function import Process, ProcessError
 
 

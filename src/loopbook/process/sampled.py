@@ -11,16 +11,26 @@ with tau = fraction h: inside one sampling interval first the older input acts, 
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from loopbook.numerics import polynomial_text
+from loopbook.numerics.fixed_point import FixedPoint
+from loopbook.numerics.real_numbers import real
 from loopbook.numerics.state_space import StateSpace, observer_form
+from loopbook.numerics.units import power_of_two
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import Process, ProcessError
+
+LARGEST = 300.0
+LOST = 1e5
+MANY = 2
+PLACES = 64
+LEAST = 745.0  # exp(-LEAST) is the least number above zero
 
 
 def held(plant: StateSpace, duration: float) -> tuple[np.ndarray, np.ndarray]:
@@ -28,10 +38,11 @@ def held(plant: StateSpace, duration: float) -> tuple[np.ndarray, np.ndarray]:
     from scipy.linalg import expm
 
     n, k = plant.B.shape
+    unit = power_of_two(float(np.abs(plant.B).max(initial=0.0)) * duration)
     block = np.zeros((n + k, n + k))
-    block[:n, :n], block[:n, n:] = plant.A, plant.B
-    result = expm(block * duration)
-    return result[:n, :n], result[:n, n:]
+    block[:n, :n], block[:n, n:] = plant.A * duration, plant.B / unit * duration
+    result = expm(block)
+    return result[:n, :n], result[:n, n:] * unit
 
 
 @dataclass(frozen=True)
@@ -55,29 +66,37 @@ class SampledProcess:
     def matrices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Phi (n, n), Gamma_0 (n,), Gamma_1 (n,)."""
         late, newer = held(self.plant, self.h - self.tau)
+        if not self.tau:
+            return late, newer[:, 0], np.zeros(len(late))
         early, older = held(self.plant, self.tau)
         return late @ early, newer[:, 0], late @ older[:, 0]
 
     @cached_property
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
         """(B, A) with y = B/A u, coefficients of z^0, z^-1, ...; A starts with 1, B with the zeros of the delay."""
+        A, n = np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h)))), self.process.order
+        B = _numerator(A, self._markov)[: n + (2 if self.tau else 1)]
+        if n >= MANY:
+            added = _numerator(abs(A), abs(self._markov))[: len(B)]
+            if (abs(B) * LOST < added).any():
+                B, A = exact_polynomials(self.process, self.h, self.tau)
+        return np.concatenate([np.zeros(self.whole), B]), A
+
+    @cached_property
+    def _markov(self) -> np.ndarray:
+        """What the newer and the older input do to the output after 0, 1, ... intervals, without whole dead times."""
         Phi, newer, older = self.matrices
-        n = len(Phi)
-        A = np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h))))
-        D = float(self.plant.D[0, 0])
-        markov = np.zeros((2, n + 1))
-        for row, gamma in zip(markov, (newer, older), strict=True):
-            state = gamma
-            for i in range(1, n + 1):
+        rows = np.zeros((2, len(Phi) + 1))
+        for row, state in zip(rows, (newer, older), strict=True):
+            for i in range(1, len(row)):
                 row[i] = self.plant.C[0] @ state
                 state = Phi @ state
-        markov[1 if self.tau else 0, 0] = D
-        B = np.zeros(n + 2)
-        B[: n + 1] += np.convolve(A, markov[0])[: n + 1]
-        B[1:] += np.convolve(A, markov[1])[: n + 1]
-        if not self.tau:
-            B = B[: n + 1]
-        return np.concatenate([np.zeros(self.whole), B]), A
+        rows[1 if self.tau else 0, 0] = self.plant.D[0, 0]
+        return rows
+
+    def numerator_of_fraction(self, A: np.ndarray) -> np.ndarray:
+        """B in double precision for the dead time's fraction alone, always with the n + 2 places of a fraction."""
+        return _numerator(A, self._markov)
 
     @property
     def num(self) -> np.ndarray:
@@ -121,10 +140,65 @@ class SampledProcess:
         return np.polyval(B[::-1], inverse) / np.polyval(A[::-1], inverse)
 
 
+def _numerator(A: np.ndarray, markov: np.ndarray) -> np.ndarray:
+    n = len(A) - 1
+    B = np.zeros(n + 2)
+    B[: n + 1] += np.convolve(A, markov[0])[: n + 1]
+    B[1:] += np.convolve(A, markov[1])[: n + 1]
+    return B
+
+
+def exact_polynomials(process: Process, h: float, tau: float) -> tuple[np.ndarray, np.ndarray]:
+    """(B, A) as `SampledProcess.polynomials`, without whole samples of dead time, correctly rounded.
+
+    In fixed-point numbers with so many places that nothing is lost where the coefficients of many lags, sampled fast,
+    cancel nearly all of each other. tau: the fraction of a sample [s] that the dead time has.
+    """
+    n, step, pace = process.order, Fraction(h), _pace(process, h)
+    a = [Fraction(c) / Fraction(process.den[0]) for c in process.den]
+    b = [Fraction(c) / Fraction(process.den[0]) for c in (*(0.0,) * (n + 1 - len(process.num)), *process.num)]
+    rows = [[Fraction(0)] * (n + 1) for _ in range(n + 1)]
+    for i in range(n):  # in units of h, x_i in units of pace^i: x_i' = x_(i+1) - a_i x_1 + (b_i - b_0 a_i) u
+        rows[i][0] = -a[i + 1] * step ** (i + 1) / pace**i
+        if i + 1 < n:
+            rows[i][i + 1] += pace
+        rows[i][n] = (b[i + 1] - b[0] * a[i + 1]) * step ** (i + 1) / pace**i
+    input_size = max(abs(row[n]) for row in rows)
+    scaled = [[*row[:n], row[n] / input_size if input_size else row[n]] for row in rows]
+    decay = min(float(abs(process.poles.real).sum()) * h, LEAST)
+    numbers = FixedPoint(PLACES * (n + 2) + math.ceil(1.5 * decay) + 4 * n * pace.bit_length())
+    share = Fraction(tau) / step
+    late, early = (
+        numbers.exponential(numbers.matrix([[x * s for x in row] for row in scaled])) for s in (1 - share, share)
+    )
+    Phi = numbers.product(late[:n, :n], early[:n, :n])
+    newer, older = late[:n, n], numbers.product(late[:n, :n], early[:n, n])
+    A = numbers.characteristic(Phi)
+    markov = np.zeros((2, n + 1), dtype=object)
+    for row, state in zip(markov, (newer, older), strict=True):
+        for i in range(1, n + 1):
+            row[i] = int(state[0])
+            state = numbers.product(Phi, state)
+    at_once = b[0] / input_size if input_size else b[0]
+    markov[1 if tau else 0, 0] = round(at_once * 2**numbers.bits)
+    B = [0] * (n + 2)
+    for shift, row in enumerate(markov):
+        for i in range(n + 1):
+            for j in range(n + 1 - i):
+                B[i + j + shift] += A[i] * row[j]
+    numerator = np.array([float(Fraction(x, 4**numbers.bits) * (input_size or 1)) for x in B])
+    return numerator if tau else numerator[: n + 1], numbers.floats(np.array(A, dtype=object))
+
+
+def _pace(process: Process, h: float) -> int:
+    """A power of two not below the fastest pole's |p h|: in such steps the states are of one size."""
+    return 2 ** max(0, math.ceil(math.log2(max(abs(process.poles) * h, default=1.0) or 1.0)))
+
+
 def sample(process: Process, h: float) -> SampledProcess:
     """The process behind a zero-order hold, sampled every h seconds: exact, dead time included.
 
-    h [s] > 0. Raises ProcessError otherwise.
+    h [s] > 0. Raises ProcessError otherwise, and where an unstable process outgrows all numbers within one interval.
 
     >>> B, A = sample(Process([1], [35, 12, 1], delay=2), 1.0).polynomials
     >>> [round(float(c), 4) for c in A]
@@ -132,10 +206,17 @@ def sample(process: Process, h: float) -> SampledProcess:
     >>> [round(float(c), 5) for c in B]
     [0.0, 0.0, 0.0, 0.01275, 0.01138]
     """
-    if not (math.isfinite(h) and h > 0):
+    h = real(h, "h", ProcessError, " s")
+    if h <= 0:
         raise ProcessError(f"h = {h!r} s: a positive sampling interval is expected")
+    growth = h * float(process.poles.real.max(initial=0.0))
+    if growth > LARGEST:
+        raise ProcessError(
+            f"h = {h:g} s: between two samples the process grows by exp({growth:.4g}), more than a number can hold; "
+            f"its fastest unstable pole is {growth / h:.4g} 1/s: sample faster"
+        )
     ratio = process.delay / h
     whole = round(ratio) if abs(ratio - round(ratio)) < 1e-12 * max(ratio, 1) else math.floor(ratio)
     tau = max(process.delay - whole * h, 0.0)
     tau = 0.0 if tau < 1e-12 * h * max(ratio, 1) else tau
-    return SampledProcess(process, h, observer_form(process.den, [process.num]), whole, tau)
+    return SampledProcess(process, h, observer_form(process.den, [process.num], h), whole, tau)

@@ -17,8 +17,10 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.extras import needed
 from loopbook.numerics import horner, polynomial_text
-from loopbook.numerics.real_numbers import plain, positive, real
+from loopbook.numerics.multiple_roots import put_together
+from loopbook.numerics.real_numbers import plain_number, positive, real
 from loopbook.numerics.step_response import open_loop_step
+from loopbook.numerics.units import characteristic_time, in_units
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 
@@ -27,10 +29,10 @@ class ProcessError(LoopbookError):
     """A transfer function that cannot be a process; the message says which number and why."""
 
 
-def coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
+def checked_coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
     """Descending real coefficients without leading zeros; ProcessError for anything else.
 
-    >>> coefficients([0, 2, 1], "num")
+    >>> checked_coefficients([0, 2, 1], "num")
     (2.0, 1.0)
     """
     if not (type(values) is tuple and values and all(type(c) is float for c in values)):
@@ -47,12 +49,18 @@ def _row(values: Any, name: str) -> list[float]:
     """A row of floats from whatever holds one."""
     array = np.atleast_1d(np.asarray(values, dtype=object))
     row = list(array)
-    if not row or array.ndim > 1 or isinstance(row[0], list | tuple | np.ndarray):
+    if not row or array.ndim > 1 or isinstance(row[0], list | tuple):
         raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
     try:
-        return [float(plain(c)) for c in row]
+        return [float(plain_number(c)) for c in row]
     except (TypeError, OverflowError):
         raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers") from None
+
+
+def _roots(p: Sequence[float]) -> np.ndarray:
+    time = characteristic_time((1.0,), p, 0.0)
+    inside = in_units(p, time)
+    return put_together(inside, np.roots(inside)) / time
 
 
 @dataclass(frozen=True)
@@ -75,8 +83,8 @@ class Process:
     delay: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "num", coefficients(self.num, "num"))
-        object.__setattr__(self, "den", coefficients(self.den, "den"))
+        object.__setattr__(self, "num", checked_coefficients(self.num, "num"))
+        object.__setattr__(self, "den", checked_coefficients(self.den, "den"))
         if self.den == (0.0,):
             raise ProcessError("den is zero: a transfer function needs a denominator")
         if len(self.num) > len(self.den):
@@ -160,7 +168,7 @@ class Process:
             num, den = np.convolve(self.num, other.num), np.convolve(self.den, other.den)
             return Process(tuple(num.tolist()), tuple(den.tolist()), self.delay + other.delay)
         try:
-            factor = real(plain(other), "factor", ProcessError)
+            factor = real(plain_number(other), "factor", ProcessError)
         except TypeError:
             return NotImplemented
         return Process(tuple(factor * c for c in self.num), self.den, self.delay)
@@ -200,12 +208,12 @@ class Process:
     @cached_property
     def poles(self) -> np.ndarray:
         """The roots of den, complex, shape (order,)."""
-        return np.roots(self.den).astype(complex)
+        return _roots(self.den)
 
     @cached_property
     def zeros(self) -> np.ndarray:
         """The roots of num, complex."""
-        return np.roots(self.num).astype(complex)
+        return _roots(self.num)
 
     def step(self, times: Any, amplitude: float = 1.0) -> np.ndarray:
         """The response to a step of the input at t = 0 from rest, exact to rounding, at any `times` [s].

@@ -3,6 +3,7 @@
 import csv
 import itertools
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -91,7 +92,7 @@ def split(lines: list[str], delimiter: str) -> list[list[str]]:
     return [[cell.strip() for cell in row] for row in rows if any(row)]
 
 
-def table(rows: list[list[str]], delimiter: str, time_units: set[str], comment: list[list[str]] = ()) -> Cells:
+def table(rows: list[list[str]], delimiter: str, time_units: set[str], comment: Sequence[list[str]] = ()) -> Cells:
     """Cells from rows of any width: where the data begins, the head above it, blank columns at the end left out."""
     scores = [sum(map(_is_value, row)) for row in rows]
     later = scores[len(scores) // 2 :]

@@ -76,7 +76,8 @@ def _running_median(y: np.ndarray, width: int) -> np.ndarray:
 
 def _cuts(y: np.ndarray) -> tuple[np.ndarray, list[str]]:
     """Stretches where the measurement stands still at its highest or lowest value, though elsewhere it does not."""
-    left_out, notes = np.zeros(len(y), bool), []
+    left_out = np.zeros(len(y), bool)
+    notes: list[str] = []
     known = y[np.isfinite(y)]
     if not len(known) or np.ptp(known) == 0:
         return left_out, notes

@@ -146,10 +146,10 @@ class Name:
         return bool(set(words) & MANIPULATED) or any(w.startswith(BEGINNINGS) for w in words)
 
 
-def plain(text: str) -> str:
+def plain_letters(text: str) -> str:
     """Lower case without accents: "Füllstand" is "fullstand", "napięcie" is "napiecie".
 
-    >>> plain("Ärvärde"), plain("Wartość"), plain("Größe")
+    >>> plain_letters("Ärvärde"), plain_letters("Wartość"), plain_letters("Größe")
     ('arvarde', 'wartosc', 'grosse')
     """
     text = text.replace("ł", "l").replace("Ł", "L").replace("ß", "ss")
@@ -163,7 +163,7 @@ def words_of(text: str) -> tuple[str, ...]:
     (('pwm', 'controller'), ('oven', 'temperature', '2'), ('q1',), ('time', 'ms'))
     """
     parted = re.sub(r"(?<=[a-zà-öø-ÿ])(?=[A-ZÀ-ÖØ-Þ])", " ", text)
-    return tuple(w for w in re.split(r"[^a-z0-9µ]+", plain(parted)) if w)
+    return tuple(w for w in re.split(r"[^a-z0-9µ]+", plain_letters(parted)) if w)
 
 
 def name_and_unit(head: str) -> tuple[str, str]:
@@ -174,15 +174,17 @@ def name_and_unit(head: str) -> tuple[str, str]:
     >>> name_and_unit("Time [s]"), name_and_unit("time_ms"), name_and_unit("ms"), name_and_unit("pwm")
     (('Time', 's'), ('time_ms', 'ms'), ('ms', 'ms'), ('pwm', ''))
     """
+    head = " ".join(head.split())  # a head of several lines is one name
     found = PAIR.fullmatch(head)
+    assert found, "each part of the pattern may be absent"
     name, unit = found[1], next((g for g in found.groups()[1:] if g), "")
     if not unit:
         words = words_of(head)
         unit_word = words[-1] if words else ""
         timely = len(words) == 1 or Name("", "", words[:-1]).says(Role.TIME) or "in" in words
         if unit_word in TIME_UNITS and timely and (len(words) > 1 or unit_word in LONE_UNITS):
-            return head.strip(), unit_word
-    return name or head.strip(), unit
+            return head, unit_word
+    return name or head, unit
 
 
 def read_name(head: str) -> Name:

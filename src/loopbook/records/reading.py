@@ -3,6 +3,7 @@
 Everything that had to be assumed is said in the record's ``assumptions``, so that a report can show it.
 """
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -95,7 +96,9 @@ def _how_cut(cells: Cells) -> str:
     return f"Columns are separated by {cells.delimiter!r}{decimals}."
 
 
-def _time(names: list[Name], data: list[np.ndarray], stamps: set[int], wanted: str | None, interval: float):
+def _time(
+    names: list[Name], data: list[np.ndarray], stamps: set[int], wanted: str | None, interval: float
+) -> int | None:
     """The column of the time, None where the interval stands for it."""
     t = None if interval and not wanted else find_time(names, data, stamps, wanted)
     if t is None and not interval:
@@ -107,17 +110,19 @@ def _time(names: list[Name], data: list[np.ndarray], stamps: set[int], wanted: s
     return t
 
 
-def _stamps(cells: Cells, names: list[Name], data: list[np.ndarray]) -> tuple[dict[int, np.ndarray], set[int], list]:
+def _stamps(
+    cells: Cells, names: list[Name], data: list[np.ndarray]
+) -> tuple[dict[int, np.ndarray], set[int], list[str]]:
     """Columns of time stamps as seconds; a column of dates and one of times of day are joined in the second.
 
     Returns the seconds by column, the columns that are no signals, and what was done.
     """
     texts = {i: cells.column(i) for i, column in enumerate(data) if np.isnan(column).mean() > 0.5}
     clocks = {i: found for i, column in texts.items() if (found := clock.times_of_day(column)) is not None}
-    days = {i: found for i, column in texts.items() if i not in clocks and (found := clock.dates(column)) is not None}
+    days = {i: date for i, column in texts.items() if i not in clocks and (date := clock.dates(column)) is not None}
     for i, column in texts.items():
-        if i not in clocks and i not in days and (found := clock.other_stamps(column)) is not None:
-            days[i] = found
+        if i not in clocks and i not in days and (other := clock.other_stamps(column)) is not None:
+            days[i] = other
     if clocks and days and (joined := _joined_stamps(cells, min(days), min(clocks))) is not None:
         d, c = min(days), min(clocks)
         note = f"Date '{names[d].text}' and time '{names[c].text}' were joined and turned into seconds."
@@ -160,11 +165,14 @@ def _scale(name: Name, samples: np.ndarray) -> tuple[float, str, list[str]]:
     return 1.0, "s", ["Time has no unit; seconds were assumed." + (doubt if whole and gap >= 10 else "")]
 
 
+@dataclass(frozen=True)
 class _Read:
     """Cleaned columns: time from zero, values, the input with its own times where the output misses some, notes."""
 
-    def __init__(self, time: np.ndarray, values: list[np.ndarray], held, notes: list[str]):
-        self.time, self.values, self.held, self.notes = time, values, held, notes
+    time: np.ndarray
+    values: list[np.ndarray]
+    held: tuple[np.ndarray, np.ndarray] | None
+    notes: list[str]
 
 
 def _cleaned(samples: np.ndarray, columns: list[np.ndarray]) -> _Read:

@@ -53,7 +53,7 @@ class Record:
     cut: float = 0.0
     time_unit: str = "s"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         arrays = [np.asarray(a, float) for a in (self.time, self.u, self.y)]
         if len({a.shape for a in arrays}) != 1 or arrays[0].ndim != 1:
             raise RecordError(f"time, input and output differ in length: {[a.shape for a in arrays]}")
@@ -63,15 +63,13 @@ class Record:
             raise RecordError("time, input and output must be finite; remove or fill the missing values")
         if (np.diff(arrays[0]) <= 0).any():
             raise RecordError("time must increase strictly")
-        if self.left_out is None:
-            object.__setattr__(self, "left_out", np.zeros(len(arrays[0]), bool))
         for name, a in zip(("time", "u", "y"), arrays, strict=True):
             object.__setattr__(self, name, a)
 
     @property
     def used(self) -> np.ndarray:
         """The samples that a fit may use, shape (n,), true or false."""
-        return ~self.left_out
+        return np.ones(len(self.time), bool) if self.left_out is None else ~self.left_out
 
     @property
     def sampling(self) -> float:

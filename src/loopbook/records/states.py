@@ -1,6 +1,6 @@
 """Columns of two words, as a valve or a relay is logged: on and off, open and closed, read as 1 and 0."""
 
-from loopbook.records.names import plain, vocabulary
+from loopbook.records.names import plain_letters, vocabulary
 
 ON = vocabulary(
     "on true yes open opened high active run running start ein an auf offen ja pa till oppen oppet sann wlaczony "
@@ -18,5 +18,5 @@ def state(text: str) -> float:
     >>> state("ON"), state("geschlossen"), state("40")
     (1.0, 0.0, nan)
     """
-    word = plain(text.strip())
+    word = plain_letters(text.strip())
     return 1.0 if word in ON else 0.0 if word in OFF else float("nan")

@@ -146,37 +146,53 @@ def simulate(
     """
     if not (isinstance(steps, int | np.integer) and steps >= 1):
         raise SimulationError(f"steps = {steps!r}: a whole number of sampling intervals, 1 or more, is expected")
-    low, high = limits
-    if not low < high:
+    if not limits[0] < limits[1]:
         raise SimulationError(f"limits = {limits!r}: the lower limit must be below the upper one")
     plant = sample(process, h)
-    whole, now = plant.whole, plant.tau == 0
-    D = float(plant.plant.D[0, 0])
-    if D and whole == 0 and now:
+    if _acts_at_once(plant):
         raise SimulationError("the process acts at once (no dead time, relative degree 0): an algebraic loop; delay it")
     t = h * np.arange(steps + 1)
-    r, d, n, w = (
-        _course(*pair, t) for pair in (("reference", reference), ("load", load), ("noise", noise), ("output", output))
-    )
+    courses = (("reference", reference), ("load", load), ("noise", noise), ("output", output))
+    signals = {name: _course(name, course, t) for name, course in courses}
+    return _run(plant, controller, t, limits, u_before, _settled(process, plant, u_before), **signals)
+
+
+def _acts_at_once(plant: SampledProcess) -> bool:
+    return bool(plant.plant.D[0, 0]) and plant.whole == 0 and plant.tau == 0
+
+
+def _run(
+    plant: SampledProcess,
+    controller: Controller,
+    t: np.ndarray,
+    limits: tuple[float, float],
+    u_before: float,
+    x: np.ndarray,
+    reference: np.ndarray,
+    load: np.ndarray,
+    noise: np.ndarray,
+    output: np.ndarray,
+) -> Simulation:
+    """Instant by instant: measure, ask the controller, limit, move on. x: the state at t = 0."""
+    (low, high), steps, whole = limits, len(t), plant.whole
+    C, D = plant.plant.C[0], float(plant.plant.D[0, 0])
     Phi, newer, older = plant.matrices
-    C = plant.plant.C[0]
-    x = _settled(process, plant, u_before)
-    history = np.full(steps + whole + 3, u_before)  # what enters the dead time, from (whole + 1) intervals before t = 0
+    history = np.full(steps + whole + 2, u_before)  # what enters the dead time, from (whole + 1) intervals before t = 0
     first = whole + 1
-    y, u, v = np.empty(steps + 1), np.empty(steps + 1), np.empty(steps + 1)
-    states, delayed = np.empty((steps + 1, len(x))), np.empty((steps + 1, 2))
+    newest = int(plant.tau == 0 and whole > 0)  # the place in the history, from k on, of the input that acts at once
+    y, u, v = np.empty(steps), np.empty(steps), np.empty(steps)
+    states, delayed = np.empty((steps, len(x))), np.empty((steps, 2))
     onwards, from_here = np.column_stack([Phi, older, newer]), np.empty(len(x) + 2)
-    for k in range(steps + 1):
+    for k in range(steps):
         states[k] = x
-        at_once = history[first + k - whole] if now and whole else history[k]
-        y[k] = C @ x + (D * at_once if D else 0.0) + w[k]
-        v[k] = _asked(controller, y[k] + n[k], r[k], t[k])
+        y[k] = C @ x + (D * history[k + newest] if D else 0.0) + output[k]
+        v[k] = _asked(controller, y[k] + noise[k], reference[k], t[k])
         u[k] = min(max(v[k], low), high)
-        history[first + k] = u[k] + d[k]
+        history[first + k] = u[k] + load[k]
         delayed[k] = history[k], history[k + 1]
         from_here[: len(x)], from_here[len(x) :] = x, history[k : k + 2]
         x = onwards @ from_here
-    return Simulation(t, y, y + n, u, v, r, d, plant, states, delayed, w)
+    return Simulation(t, y, y + noise, u, v, reference, load, plant, states, delayed, output)
 
 
 def _settled(process: Process, plant: SampledProcess, u_before: float) -> np.ndarray:

@@ -84,7 +84,7 @@ def _checked(t: np.ndarray, y: np.ndarray) -> None:
         raise StepMetricsError(f"t must increase; it does not after sample {np.flatnonzero(np.diff(t) <= 0)[0]}")
 
 
-def sampled(y: Any, t: Any = None, final: float | None = None, band: float = BAND) -> StepMetrics:
+def sampled_metrics(y: Any, t: Any = None, final: float | None = None, band: float = BAND) -> StepMetrics:
     """Metrics of samples in the convention of MATLAB's ``stepinfo(y, t)``.
 
         rise       = t(90 %) - t(10 %), each the first crossing of y(1) + x (final - y(1)), linear between samples
@@ -97,7 +97,7 @@ def sampled(y: Any, t: Any = None, final: float | None = None, band: float = BAN
     infinite. The initial value is the first sample (newer releases of MATLAB take 0 unless told otherwise; the same
     where the response starts at 0). Raises StepMetricsError for NaN, unequal lengths, decreasing times.
 
-    >>> m = sampled([0, 0.5, 1.0, 1.0], [0, 1, 2, 3])
+    >>> m = sampled_metrics([0, 0.5, 1.0, 1.0], [0, 1, 2, 3])
     >>> round(m.rise, 9), round(m.settling, 9), m.overshoot
     (1.6, 1.96, 0.0)
     """
@@ -149,7 +149,7 @@ def _relative_to_final(y: np.ndarray, final: float) -> tuple[float, float]:
     return 100 * max(0.0, float(relative.max()) - 1), 100 * max(0.0, -float(relative.min()))
 
 
-def exact(
+def exact_metrics(
     y: Signal | Callable[[np.ndarray], np.ndarray],
     final: float,
     horizon: float,
@@ -175,7 +175,7 @@ def exact(
     missed.
     Raises NotSettled (with horizon, error, band), and StepMetricsError for final = rest, NaN, a horizon <= 0.
 
-    >>> m = exact(lambda t: 1 - np.exp(-t), final=1.0, horizon=20.0)
+    >>> m = exact_metrics(lambda t: 1 - np.exp(-t), final=1.0, horizon=20.0)
     >>> round(m.rise, 9), round(m.settling, 9)                           # ln 9, ln 50
     (2.197224577, 3.912023005)
     """

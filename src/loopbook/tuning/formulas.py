@@ -1,7 +1,7 @@
 """A published rule computed: the expressions of `derivations.tuning` as functions, its cautions as sentences."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import cache
 from typing import Any
 
@@ -11,6 +11,7 @@ from derivations.tuning.letters import QUANTITIES, lam
 from derivations.tuning.rule import Caution, Rule
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
+from loopbook.numerics.real_numbers import plain_number
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
@@ -43,12 +44,12 @@ def as_tuning_rule(rule: Rule) -> TuningRule:
 
 def compute(rule: Rule, data: ProcessData, extrapolate: bool = False, **options: float) -> Tuning:
     """The settings of a published rule; see `TuningRule` for what is given and refused."""
-    beside = {name: options[name] for name in ("Kp", "tau") if name in options}
+    beside = {name: _number(name, options[name]) for name in ("Kp", "tau") if name in options}
     numbers, how = data.numbers(rule.takes, **beside)
-    values = {**numbers, **{name: float(value) for name, value in options.items() if name != "Kp"}}
+    values = {**numbers, **{name: _number(name, value) for name, value in options.items() if name != "Kp"}}
     for letter, default in rule.defaults.items():
         values.setdefault(QUANTITIES[letter], _value(default, values))
-    _positive(rule, values)
+    _positive(rule, values, values.keys() - numbers.keys() - options.keys())
     for caution in rule.refusals + (() if extrapolate else rule.extrapolates):
         if _holds(caution, values):
             raise RuleDoesNotApply(_sentence(caution, values), caution.advice)
@@ -61,10 +62,22 @@ def compute(rule: Rule, data: ProcessData, extrapolate: bool = False, **options:
     return Tuning(PidStandard(K, Ti, Td, b=b, c=float(rule.c)), rule.name, rule.source, notes, values, how)
 
 
-def _positive(rule: Rule, values: Mapping[str, float]) -> None:
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(plain_number(value))
+    except TypeError as error:
+        raise RuleDoesNotApply(f"{name}: {error}") from None
+
+
+def _positive(rule: Rule, values: Mapping[str, float], defaulted: Collection[str]) -> None:
     """A dead time of zero would give an infinite gain; an option must be a positive time."""
     asked = {_name(letter) for letter in rule.inputs}
     for name in ("closed", "i"):
+        if name == "closed" and name in asked and name in defaulted and values[name] == 0:
+            raise RuleDoesNotApply(
+                "without dead time the recommended closed = T0 is zero and the gain infinite: give closed, the time "
+                "constant that the closed loop shall have"
+            )
         if name in asked and not (math.isfinite(values[name]) and values[name] > 0):
             raise RuleDoesNotApply(f"{name} = {values[name]:g} must be a positive number")
     if any(name in asked and values[name] == 0 and "closed" not in asked for name in ("L", "L1")):

@@ -21,9 +21,9 @@ import numpy as np
 
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
+from loopbook.loop.process_phase import NoSuchFrequency, frequency_at, phase
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopTransfer
-from loopbook.process.frequency_response import NoSuchFrequency, frequency_at, phase
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo_branch import (
     M_DEFAULT,
@@ -32,14 +32,15 @@ from loopbook.tuning.migo_branch import (
     clearance,
     deepest,
     kd_limit,
-    local_clearance,
     smooth_branch,
 )
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
+from loopbook.tuning.second_touch import least_room
 
 __all__ = ["M_DEFAULT", "Migo", "circle", "clearance", "computed", "is_stable", "pi", "pid", "smooth_branch"]
 
+ON_AXIS = 1e-9
 SOURCE = "Åström, Panagopoulos, Hägglund (1998, 2002); pid-report, section 5.3"
 
 
@@ -82,6 +83,8 @@ def pid(process: Process, M: float = M_DEFAULT) -> Migo:
     (2.63, 1.49, 0.91)
     """
     scale = _reference(process)
+    if not kd_limit(process, M):
+        raise RuleDoesNotApply("MIGO PID: the process answers at once, and derivative action has no gain that it bears")
     start = _pi_touch(process, scale, M)
     low, high, second = _first_violation(process, scale, start, _branch_end(process, start, M), M)
     if math.isinf(second):
@@ -108,7 +111,7 @@ def _reference(process: Process) -> float:
     """A frequency that scales all grids: where the phase is -150 degrees."""
     if not process.num[-1] / process.den[np.flatnonzero(process.den)[-1]] > 0:
         raise RuleDoesNotApply("MIGO: the gain of the process is not positive; change the sign of u, tune, change back")
-    if (process.poles.real > 1e-12).any():
+    if (process.poles.real > ON_AXIS * abs(process.poles)).any():
         raise RuleDoesNotApply(f"MIGO: the process is unstable by itself, poles {process.poles}")
     try:
         return frequency_at(process, math.radians(-150))
@@ -127,7 +130,11 @@ def _pi_frequency(process: Process, scale: float, M: float) -> float:
     if not rising.size:
         raise RuleDoesNotApply("MIGO PI: ki has no smooth maximum under this robustness")
     best = rising[np.argmax(ki[rising])]
-    return float(brentq(lambda x: smooth_branch(process, np.array(x), M)[2], w[best], w[best + 1], rtol=1e-14))
+    return float(
+        brentq(
+            lambda x: smooth_branch(process, np.array(x), M)[2], w[best], w[best + 1], xtol=1e-15 * w[best], rtol=1e-14
+        )
+    )
 
 
 def _branch_end(process: Process, start: float, M: float) -> float:
@@ -159,7 +166,9 @@ def _where_derivative_is(process: Process, kd: float, low: float, high: float, M
     """The touching frequency in (low, high) at which the branch has the derivative gain kd."""
     from scipy.optimize import brentq
 
-    return float(brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, rtol=1e-13))
+    return float(
+        brentq(lambda w: smooth_branch(process, np.array(w), M)[2] - kd, low, high, xtol=1e-15 * low, rtol=1e-13)
+    )
 
 
 def _second_touch(
@@ -173,17 +182,15 @@ def _second_touch(
     from scipy.optimize import brentq
 
     for _ in range(5):
-        at_low, second = local_clearance(process, low, near, M)
-        if at_low <= 0:
+        if least_room(process, low, near, M)[0] <= 0:
             low, high = start, low
-        ends = [local_clearance(process, x, near, M)[0] for x in (low, high)]
-        if not ends[0] > 0 > ends[1]:
+        room = lambda x: least_room(process, x, near, M)[0]  # noqa: E731, B023
+        if not room(low) > 0 > room(high):
             return _bisected(process, scale, start, high, M)
-        w = float(brentq(lambda x: local_clearance(process, x, near, M)[0], low, high, rtol=1e-12))  # noqa: B023
-        second = local_clearance(process, w, near, M)[1]
+        w = float(brentq(room, low, high, xtol=1e-15 * low, rtol=1e-13))
         depth, at = deepest(process, scale, smooth_branch(process, np.array([w]), M), M, density=8)
         if depth[0] >= -TOLERANCE:
-            return w, second
+            return w, least_room(process, w, near, M)[1]
         near, high = float(at[0]), w
     return _bisected(process, scale, start, high, M)
 
@@ -206,6 +213,8 @@ def _bisected(process: Process, scale: float, low: float, high: float, M: float)
 
 def _result(process: Process, rule: str, M: float, gains: tuple[float, float, float], touches: Iterable[float]) -> Migo:
     k, ki, kd = map(float, gains)
+    if not (k > 0 and ki > 0 and kd >= 0):
+        raise RuleDoesNotApply(f"{rule}: the smooth optimum has K = {k:.4g}, ki = {ki:.4g}, kd = {kd:.4g}")
     settings = PidStandard(K=k, Ti=k / ki, Td=kd / k, b=0.0)
     stable = is_stable(process, settings)
     if not stable:

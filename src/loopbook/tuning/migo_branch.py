@@ -5,7 +5,7 @@ clearance |C + L(i w)| - R on grids that see every approach to the circle.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
@@ -54,7 +54,7 @@ def smooth_branch(process: Process, w: np.ndarray, M: float = M_DEFAULT) -> np.n
     return np.array([k, ki_of_pi + w**2 * kd, kd])
 
 
-def clearance(process: Process, gains: Sequence[Any], w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
+def clearance(process: Process, gains: Iterable[Any], w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:
     """|C + L(i w)| - R: negative inside the circle. gains: (k, ki, kd), each a number or broadcastable against w."""
     k, ki, kd = gains
     C, R = circle(M)
@@ -62,11 +62,14 @@ def clearance(process: Process, gains: Sequence[Any], w: np.ndarray, M: float = 
 
 
 def kd_limit(process: Process, M: float) -> float:
-    """The largest kd where dead time turns a loop gain kd b0/a0 that does not fade: |L| <= (M-1)/M; else inf."""
-    if not process.delay or process.relative_degree > 1:
+    """The largest kd where the loop gain tends to kd b0/a0 and that, or its turning by dead time, points at the circle:
+    |L| <= (M-1)/M. 0 where derivative action lets the gain grow without end; inf where nothing limits it.
+    """
+    last = process.num[0] / process.den[0]
+    if process.relative_degree > 1 or (not process.delay and last > 0):
         return math.inf
     C, R = circle(M)
-    return (C - R) * abs(process.den[0] / process.num[0])
+    return (C - R) / abs(last) if process.relative_degree else 0.0
 
 
 def _grid(process: Process, scale: float, gains: np.ndarray, M: float, density: int) -> np.ndarray:
@@ -109,17 +112,3 @@ def deepest(
     limit = kd_limit(process, M)
     beyond = gains[2] > limit
     return np.where(beyond, -1.0, depth), np.where(beyond, math.inf, where)
-
-
-def local_clearance(process: Process, w: float, near: float, M: float) -> tuple[float, float]:
-    """The smallest clearance within 10 % of the frequency `near`, and where; by zooming in and a final parabola."""
-    gains = smooth_branch(process, np.array(w), M)
-    span, centre = 1.1, near
-    for _ in range(5):
-        x = centre * np.geomspace(1 / span, span, 41)
-        room = clearance(process, gains, x, M)
-        i = int(np.clip(room.argmin(), 1, 39))
-        centre, span = x[i], span ** (1 / 8)
-    left, middle, right = room[i - 1 : i + 2]
-    bend = left - 2 * middle + right
-    return float(middle - (right - left) ** 2 / (8 * bend) if bend > 0 else middle), float(centre)

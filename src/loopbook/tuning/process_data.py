@@ -31,7 +31,7 @@ from loopbook.experiments.data import (
     TwoLagData,
 )
 from loopbook.experiments.plant import ExperimentError
-from loopbook.process.frequency_response import NoSuchFrequency, ultimate
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.half_rule import half_rule, lags_of
 from loopbook.tuning.result import RuleDoesNotApply
@@ -133,7 +133,7 @@ class ProcessData:
                 T = process.den[0] / process.den[1]
                 data, how = StepData(process.static_gain, T, process.delay), "its own gain, lag and dead time"
             else:
-                data, how = step.exact(process), "tangent and 63 % of the exact step response"
+                data, how = step.step_data(process), "tangent and 63 % of the exact step response"
         if not isinstance(data, StepData):
             raise RuleDoesNotApply("the process integrates: its step response has no final level")
         return {"Kp": data.Kp, "T": data.T, "L": data.L, "tau": data.tau}, how
@@ -141,7 +141,10 @@ class ProcessData:
     def _integrating_step(self) -> tuple[dict[str, float], str]:
         data, how = self.step, GIVEN
         if data is None:
-            data, how = integrating_step.exact(self._need("step data")), "final tangent of the exact step response"
+            data, how = (
+                integrating_step.slope_data(self._need("step data")),
+                "final tangent of the exact step response",
+            )
         if not isinstance(data, IntegratingStepData):
             raise RuleDoesNotApply("the process does not integrate")
         return {"Kv": data.Kv, "L": data.L}, how
@@ -214,7 +217,7 @@ class ProcessData:
                 kv = self._integrating_step()[0]["Kv"]
                 data, how = IntegratingPulseData(kv, sum(lags[1:]), process.delay), "its own lag and dead time"
             else:
-                data, how = short_pulse.exact(process), "step response without the integrator"
+                data, how = short_pulse.pulse_data(process), "step response without the integrator"
         return {"Kv": data.Kv, "T2": data.T2, "L1": data.L1}, how
 
     def upright(self) -> Process:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from loopbook.controllers.pid_forms import PidStandard
+from loopbook.controllers.pid_forms import LEFT_OUT, PidStandard
 from loopbook.controllers.regulator import Regulator
 from loopbook.refusal import Refusal
 
@@ -71,8 +71,8 @@ class Tuning:
         0.1
         """
         if self.pid.Tf:
-            return replace(self.pid, c=0.0, N=None)
-        return PidStandard(self.K, self.Ti, self.Td, b=self.b, c=0.0, N=N if self.Td else None)
+            return replace(self.pid, c=0.0, N=LEFT_OUT)
+        return PidStandard(self.K, self.Ti, self.Td, b=self.b, c=0.0, N=N if self.Td else LEFT_OUT)
 
     def regulator(self) -> Regulator:
         """The polynomials T, S, R of the settings as they are built: what closes a `Loop`."""

@@ -110,7 +110,7 @@ def _disk(project: Project) -> tuple[str, str]:
 
 def _kernel(project: Project) -> tuple[str, str]:
     from notebook_reports.run import kernels
-    from notebook_reports.run.run import run
+    from notebook_reports.run.run import run_notebook
 
     text = "1 + 1"
     cell: dict[str, Any] = {
@@ -125,7 +125,7 @@ def _kernel(project: Project) -> tuple[str, str]:
     started = time.monotonic()
     with tempfile.TemporaryDirectory(dir=runtime.folder()) as folder:
         elsewhere = replace(project, cache=Path(folder))
-        done = run(
+        done = run_notebook(
             Source(Path(folder) / "x.ipynb", (SourceCell(1, "one", "code", text, (), ""),), content),
             "doctor",
             elsewhere,

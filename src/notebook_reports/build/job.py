@@ -181,13 +181,13 @@ def _do(project: Project, job: Job, wanted: Wanted) -> Done:
 
 def _run(project: Project, job: Job, wanted: Wanted, remembers: bool) -> "_Result | Done":
     """Run the notebook. Where it fails: what is to be said, and nothing of it that looks finished is left."""
-    from notebook_reports.run.run import run
+    from notebook_reports.run.run import run_notebook
 
     notebook, source = job.notebook, job.source
     if remembers:
         stamps.forget(project, notebook, output_paths(project, notebook))
     began = time.time_ns()
-    ran = run(source, notebook.id, project, job.parameters, wanted.timeout)
+    ran = run_notebook(source, notebook.id, project, job.parameters, wanted.timeout)
     warnings = [list(w) for w in ran.warnings]
     if ran.failure:
         for path in job.outputs.values() if not job.keep_older else ():

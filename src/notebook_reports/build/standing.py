@@ -54,11 +54,13 @@ def standing(project: Project, notebook: Notebook, beside: bool, formats: tuple[
     home = Door(_relative(INDEX, notebook), title) if title else None
     name = posixpath.basename(notebook.id)
     files = tuple(Door(f"{name}.{format}", words) for format, words in FILES.items() if format in formats)
-    around = Around(home, *(_door(other, notebook) if other else None for other in (before, after)), files)
+    around = Around(home, _door(before, notebook), _door(after, notebook), files)
     return Standing(part, around)
 
 
-def _door(other: Notebook, notebook: Notebook) -> Door:
+def _door(other: Notebook | None, notebook: Notebook) -> Door | None:
+    if other is None:
+        return None
     return Door(_relative(f"{other.id}.html", notebook), _title(other.path, os.stat(other.path).st_mtime_ns))
 
 

@@ -24,7 +24,7 @@ from notebook_reports.export.read.notebook import level_headings, number_blocks,
 from notebook_reports.export.write.arrangement import Arrangement
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
 from notebook_reports.export.write.typst_engine import TypstFailed, compile_settled, too_wide_table
-from notebook_reports.export.write.typst_text import literal
+from notebook_reports.export.write.typst_text import typst_string
 
 __all__ = ["Chapter", "LinkedTable", "Page", "export_book"]
 
@@ -169,8 +169,8 @@ def _source(
 ) -> tuple[str, dict[str, bytes]]:
     """The Typst source of the book and the files beside it; a comment names each chapter for `_of_chapter`."""
     lines = "".join(f"[{TypstWriter().inline(read_inline(line))}], " for line in cover.lines)
-    told = ", ".join(literal(text) for text in (cover.title, cover.subtitle))
-    rest = f"{literal(cover.author)}, {literal(cover.language)}, {cover.depth}, {top}"
+    told = ", ".join(typst_string(text) for text in (cover.title, cover.subtitle))
+    rest = f"{typst_string(cover.author)}, {typst_string(cover.language)}, {cover.depth}, {top}"
     pieces = [IMPORT, f"#show: book.with({told}, ({lines}), {rest})"]
     files = dict(support_files())
     roman = 0
@@ -182,11 +182,11 @@ def _source(
             roman += 1
             number = _roman(roman) if entry.number.isdigit() else ""
             about = f", about: [{writer.inline(read_inline(entry.about))}]" if entry.about else ""
-            pieces.append(f"#part({literal(number)}{about})[#{literal(entry.part)};]")
+            pieces.append(f"#part({typst_string(number)}{about})[#{typst_string(entry.part)};]")
         also = [writer.label(report.title_anchor)] if report.title_anchor else []
-        labels = ", ".join([f"label({literal(report.name)})", *also])
+        labels = ", ".join([f"label({typst_string(report.name)})", *also])
         level = top if entry.number else 1
-        pieces.append(f"#chapter({level}, {literal(entry.number)}, ({labels},))[{writer.inline(report.title)}]")
+        pieces.append(f"#chapter({level}, {typst_string(entry.number)}, ({labels},))[{writer.inline(report.title)}]")
         pieces += [f"// cell {cell.number}\n{writer.report_cell(cell)}\n" for cell in report.cells if cell.blocks]
         files |= writer.files
     return "\n".join(pieces) + "\n", files

@@ -1,6 +1,6 @@
 """Where the code of a report stands: in its place, at the end, or nowhere."""
 
-from notebook_reports.export.model import Block, Heading, Link, Listing, Paragraph, Report, ReportCell, Text, plain
+from notebook_reports.export.model import Block, Heading, Link, Paragraph, Report, ReportCell, Text, Verbatim, plain
 
 INLINE, END, NONE = CODE = ("inline", "end", "none")
 TITLE = "The code"
@@ -19,12 +19,12 @@ def place_code(report: Report, where: str, level: int = 1, number: str = "") -> 
     for cell in report.cells:
         for block in cell.blocks:
             section = block if isinstance(block, Heading) else section
-            if isinstance(block, Listing) and block.role == "input":
+            if isinstance(block, Verbatim) and block.role == "input":
                 if section is not told and section is not None:
                     gathered.append(_of(section))
                     told = section
                 gathered.append(block)
-        _keep(report, cell, [b for b in cell.blocks if not (isinstance(b, Listing) and b.role == "input")])
+        _keep(report, cell, [b for b in cell.blocks if not (isinstance(b, Verbatim) and b.role == "input")])
     if where == END and gathered:
         heading = Heading(level, [Text(TITLE)], _free(report), number)
         report.anchors.add(heading.anchor)
@@ -34,7 +34,7 @@ def place_code(report: Report, where: str, level: int = 1, number: str = "") -> 
 def for_paper(report: Report) -> None:
     """Drop the code that is shown only to who asks for it."""
     for cell in report.cells:
-        _keep(report, cell, [b for b in cell.blocks if not (isinstance(b, Listing) and b.folded)])
+        _keep(report, cell, [b for b in cell.blocks if not (isinstance(b, Verbatim) and b.folded)])
 
 
 def _keep(report: Report, cell: ReportCell, blocks: list[Block]) -> None:

@@ -11,7 +11,6 @@ from notebook_reports.export.model import (
     Block,
     Code,
     Link,
-    Listing,
     Math,
     Mend,
     Paragraph,
@@ -19,6 +18,7 @@ from notebook_reports.export.model import (
     Report,
     ReportCell,
     Text,
+    Verbatim,
     walk,
 )
 
@@ -42,7 +42,7 @@ KINDS = {
 """By kind, what the box calls it."""
 
 
-def number(report: Report) -> list[tuple[int, Mend]]:
+def number_mends(report: Report) -> list[tuple[int, Mend]]:
     """Number the mends of a report in reading order; they, each with its cell (0: the title)."""
     found = [(0, node) for node in walk(report.title) if isinstance(node, Mend)]
     found += [(cell.number, node) for cell in report.cells for node in walk(cell) if isinstance(node, Mend)]
@@ -67,7 +67,7 @@ def sentence(mend: Mend) -> str:
     return f"{what}{':' if mend.remark else ''} {told}{where}"
 
 
-def lines(report: Report) -> list[str]:
+def mend_lines(report: Report) -> list[str]:
     """The list of mends as the command prints it, one a line."""
     return [f"{report.name}, cell {cell}, mend {mend.number}: {sentence(mend)}" for cell, mend in report.mends]
 
@@ -82,8 +82,8 @@ def boxed_cells(report: Report) -> set[int]:
 
 def _is_box(cell: ReportCell) -> bool:
     missing = any(isinstance(node, Mend) and not node.remark for node in walk(cell))
-    blocks = [b for b in cell.blocks if not isinstance(b, Listing) or b.role not in ("input", "code")]
-    shown = [b for b in blocks if not isinstance(b, Mend) and not (isinstance(b, Listing) and _stand_in(b.text))]
+    blocks = [b for b in cell.blocks if not isinstance(b, Verbatim) or b.role not in ("input", "code")]
+    shown = [b for b in blocks if not isinstance(b, Mend) and not (isinstance(b, Verbatim) and _stand_in(b.text))]
     return missing and not any(_says_something(block) for block in shown)
 
 

@@ -149,7 +149,7 @@ class Display:
 
 
 @dataclass
-class Listing:
+class Verbatim:
     """Preformatted text. role: input, code, output, stderr or error. language: a Pygments name, "" for plain text.
     folded: to be shown only to who asks; not on paper."""
 
@@ -160,7 +160,7 @@ class Listing:
 
 
 @dataclass
-class Item:
+class ListItem:
     """checked: None where the item is no task. value: the number of the item where it is not one more than the last."""
 
     blocks: list["Block"]
@@ -172,7 +172,7 @@ class Item:
 class Bullets:
     """style: of the numbers, one of 1 a A i I."""
 
-    items: list[Item]
+    items: list[ListItem]
     ordered: bool = False
     start: int = 1
     tight: bool = True
@@ -215,7 +215,7 @@ class Folded:
 
 
 @dataclass
-class Rule:
+class ThematicBreak:
     """A thematic break."""
 
 
@@ -255,7 +255,7 @@ class Grid:
 
 
 @dataclass
-class Figure:
+class FigureBlock:
     """A picture on its own lines. number: "Figure 2", or "" without a caption."""
 
     picture: Picture
@@ -279,15 +279,15 @@ Block = (
     Heading
     | Paragraph
     | Display
-    | Listing
+    | Verbatim
     | Bullets
     | Definitions
     | Quote
     | Alert
     | Folded
-    | Rule
+    | ThematicBreak
     | Grid
-    | Figure
+    | FigureBlock
     | Mend
     | Live
 )
@@ -347,7 +347,7 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Alert() | Folded() | Item() | Note():
+        case ReportCell() | Quote() | Alert() | Folded() | ListItem() | Note():
             return node.blocks
         case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children
@@ -357,7 +357,7 @@ def children(node: Any) -> list[Any]:
             return [part for term, blocks in node.items for part in (*term, *blocks)]
         case Grid():
             return [*node.caption, *node.cells, *(part for note in node.notes for part in note)]
-        case Figure():
+        case FigureBlock():
             return [node.picture, *node.caption]
         case Live():
             return node.instead
@@ -395,7 +395,7 @@ def rewrite(node: Any, change: Callable[[Any], list[Any] | None]) -> None:
             changed(node.cells)
             for note in node.notes:
                 changed(note)
-        case Figure():
+        case FigureBlock():
             changed(node.caption)
         case _:
             found = children(node)

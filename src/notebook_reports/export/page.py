@@ -6,6 +6,7 @@ html = export_page(page)
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from notebook_reports.export.around import Around, Tools
@@ -51,7 +52,7 @@ def read_page(page: Page, strict_alt: bool = True) -> Report:
     cells = []
     for number, content in enumerate(page.content, start=1):
         reading.cell = number
-        blocks = reading.attempt(lambda content=content: _content(content, reading))
+        blocks = reading.attempt(partial(_content, content, reading))
         cells.append(ReportCell(number, blocks, f"cell-{number}"))
     report = Report(page_name(page), [Text(page.title)], "", cells)
     collect_anchors(report, reading)

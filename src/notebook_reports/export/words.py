@@ -73,10 +73,10 @@ def compare(notebook: Any, page: str) -> Comparison:
     """
     cells = notebook_words(notebook)
     shown = words_of(page)
-    text = "".join(shown)
+    text, whole = "".join(shown), set(shown)
     words = [(number, word) for number, found in cells for word in found]
     counted = [(number, word) for number, word in words if len(word) >= 3]
-    lost = [(number, word) for number, word in counted if word not in text]
+    lost = [(number, word) for number, word in counted if word not in whole and word not in text]
     here, there = _threes([word for _, word in words]), _threes(shown)
     pairs = [(place, there[three]) for three, place in here.items() if three in there]
     row = _rising([onward for _, onward in pairs])

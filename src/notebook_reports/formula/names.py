@@ -29,10 +29,10 @@ class Symbols(dict[str, "Expr"]):
         return Symbol(name)
 
 
-def sample(name: str, shift: int) -> "Expr":
+def sample_point(name: str, shift: int) -> "Expr":
     """A sample as a function of the integer k.
 
-    >>> sample("y", -1)
+    >>> sample_point("y", -1)
     y(k - 1)
     """
     from sympy import Function, Symbol

@@ -18,15 +18,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, TypeVar
 
 from notebook_reports.formula import size as limits
-from notebook_reports.formula.names import FUNCTIONS, Symbols, sample, standard_functions
+from notebook_reports.formula.names import FUNCTIONS, Symbols, sample_point, standard_functions
 from notebook_reports.formula.size import Size
-from notebook_reports.formula.words import FormulaError, Lexeme, UnknownName, words
+from notebook_reports.formula.words import FormulaError, Lexeme, UnknownName, lexemes
 from notebook_reports.mathematics.errors import nearest
 
 if TYPE_CHECKING:
     from sympy import Expr, MatrixBase
 
-__all__ = ["FUNCTIONS", "FormulaError", "Symbols", "UnknownName", "read_equations", "read_formula", "sample"]
+__all__ = ["FUNCTIONS", "FormulaError", "Symbols", "UnknownName", "read_equations", "read_formula"]
 
 
 def read_formula(
@@ -34,7 +34,7 @@ def read_formula(
     names: Mapping[str, "Expr"] | None = None,
     functions: Mapping[str, Callable[..., "Expr"]] | None = None,
     *,
-    samples: Callable[[str, int], "Expr"] = sample,
+    samples: Callable[[str, int], "Expr"] = sample_point,
     where: str = "",
 ) -> "Expr":
     """One expression in SymPy, from text that is never run.
@@ -64,7 +64,7 @@ def read_equations(
     names: Mapping[str, "Expr"] | None = None,
     functions: Mapping[str, Callable[..., "Expr"]] | None = None,
     *,
-    samples: Callable[[str, int], "Expr"] = sample,
+    samples: Callable[[str, int], "Expr"] = sample_point,
     where: str = "",
 ) -> list[tuple["Expr | MatrixBase", "Expr | MatrixBase | None"]]:
     """(left, right) of each equation, separated by ";"; right is None for an expression alone. Else as `read_formula`.
@@ -105,7 +105,7 @@ class _Reader:
         self.constants = {"pi": sympy.pi}
         self.without_value = (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo)
         self.depth = self.at = 0
-        self.words = words(text, where)
+        self.words = lexemes(text, where)
 
     def error(self, reason: str, position: int, kind: type[FormulaError] = FormulaError) -> FormulaError:
         return kind(reason, self.text, position, self.where)

@@ -41,10 +41,10 @@ class Lexeme(NamedTuple):
     position: int
 
 
-def words(text: str, where: str = "") -> list[Lexeme]:
+def lexemes(text: str, where: str = "") -> list[Lexeme]:
     """The words of a text, and the end. Raises FormulaError for a sign that no formula has and for too long a text.
 
-    >>> [word.text for word in words("2*y[k-1]")]
+    >>> [word.text for word in lexemes("2*y[k-1]")]
     ['2', '*', 'y', '[', 'k', '-', '1', ']', 'the end']
     """
     if len(text) > LENGTH:

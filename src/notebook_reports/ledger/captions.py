@@ -27,9 +27,9 @@ def caption(table: str, places: Sequence[str], verdicts: Sequence[str], order: S
     parts = [(counts[verdict], verdict) for verdict in order if counts[verdict]]
     if len(parts) == 1:
         every = {1: "", 2: "both "}.get(number, "all ")
-        found = every + told(parts[0][1], number)
+        found = every + verb_of(parts[0][1], number)
     else:
-        found = ", ".join(f"{count} {told(verdict, count)}" for count, verdict in parts)
+        found = ", ".join(f"{count} {verb_of(verdict, count)}" for count, verdict in parts)
     return f"{where(places)}: {number} {NAMES[table][number > 1]}, {found}"
 
 
@@ -62,10 +62,10 @@ def where(places: Sequence[str]) -> str:
     return literal(text if _FILE.match(text) else text[:1].upper() + text[1:])
 
 
-def told(verdict: str, number: int) -> str:
+def verb_of(verdict: str, number: int) -> str:
     """The verdict as the verb of a number.
 
-    >>> told("holds partly", 2), told("fails", 1), told("reproduced", 3)
+    >>> verb_of("holds partly", 2), verb_of("fails", 1), verb_of("reproduced", 3)
     ('hold partly', 'fails', 'reproduced')
     """
     words = verdict.split()

@@ -53,13 +53,13 @@ def as_text(changes: Sequence[files.Change], ref: str) -> str:
 
 def as_markdown(changes: Sequence[files.Change], ref: str) -> str:
     """The same for a review: whatever stands in the ledger is text there, never markup, a link or a mention."""
-    lines = [f"**{literal(_headline(changes, ref))}**", ""]
+    lines = [f"**{as_plain_markdown(_headline(changes, ref))}**", ""]
     for table, title in TITLES.items():
         mine = [c for c in changes if c.table == table]
         if mine:
             lines += [f"| {title} | place | change | |", "|---|---|---|---|"]
             cells = ([c.row.id, f"{c.row.document}, {c.row.place}", c.what, "moved" if c.moved else ""] for c in mine)
-            lines += ["| " + " | ".join(map(literal, row)) + " |" for row in cells]
+            lines += ["| " + " | ".join(map(as_plain_markdown, row)) + " |" for row in cells]
             lines += [""]
     return "\n".join(lines)
 
@@ -72,10 +72,10 @@ def _headline(changes: Sequence[files.Change], ref: str) -> str:
     return told + ": a verdict, a printed digit, a row that went"
 
 
-def literal(text: str) -> str:
+def as_plain_markdown(text: str) -> str:
     """Text as Markdown that shows it as it is.
 
-    >>> literal("a|b <b>@all</b>")
+    >>> as_plain_markdown("a|b <b>@all</b>")
     'a\\\\|b \\\\<b\\\\>\\\\@all\\\\</b\\\\>'
     """
     plain = " ".join("".join(c if c.isprintable() else " " for c in text).split())

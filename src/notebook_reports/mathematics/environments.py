@@ -205,7 +205,7 @@ def _grid(
         if name.startswith("multline") and number:
             row.cells[0] = [n.Space(2.0), n.Group([]), *row.cells[0]]
     align = (align * max(1, width))[:width] if len(align) < width else align[:width]
-    return n.Grid(
+    return n.MathArray(
         rows=rows,
         align=align,
         gap=layout.gap,

@@ -115,7 +115,7 @@ def _content(before: int, option: bool = False) -> Handler:
 
 
 def _logo(name: str) -> Handler:
-    return lambda p, token: n.Text(name)
+    return lambda p, token: n.MathText(name)
 
 
 def _bracket(left: str, right: str) -> Handler:
@@ -160,7 +160,7 @@ def _unicode(p: Parser, token: Token) -> n.Node:
     code = (int(found[1], 16) if found[1] else int(found[2])) if found else -1
     if not 32 <= code < 0x110000 or not chr(code).isprintable():
         raise p.lexer.error(f"\\unicode needs the code of a character, got {raw}", start)
-    return n.Text(chr(code))
+    return n.MathText(chr(code))
 
 
 def _verb(p: Parser, token: Token) -> n.Node:
@@ -171,7 +171,7 @@ def _verb(p: Parser, token: Token) -> n.Node:
     if end < 0:
         raise p.error("\\verb is never closed", token)
     p.lexer.position = end + 1
-    return n.Text(p.lexer.latex[at + 1 : end], "mono")
+    return n.MathText(p.lexer.latex[at + 1 : end], "mono")
 
 
 def _enclose(p: Parser, token: Token) -> n.Node:

@@ -37,7 +37,7 @@ class Word(Node):
 
 
 @dataclass
-class Text(Node):
+class MathText(Node):
     """Text from ``\\text{…}``; its spaces count. variant: normal, bold, italic, mono or sans."""
 
     text: str
@@ -195,7 +195,7 @@ class Row:
 
 
 @dataclass
-class Grid(Node):
+class MathArray(Node):
     """Rows and columns: matrices, arrays, cases, aligned equations.
 
     align: one of l, c, r per column. gap, row_gap: between columns and rows, in em. left, right: delimiters.

@@ -27,7 +27,7 @@ def edges(node: n.Node) -> tuple[str, str] | None:
             return "rel", "rel"
         case n.Middle():
             return "close", "open"
-        case n.Fenced() | n.Grid():
+        case n.Fenced() | n.MathArray():
             return _edge(node.left, "open"), _edge(node.right, "close")
         case n.Scripts():
             return edges(node.base) or ("ord", "ord")

@@ -30,7 +30,7 @@ def text(p: Parser, start: int, end: int, variant: str) -> list[n.Node]:
     def flush() -> None:
         nonlocal run
         if run:
-            found.append(n.Text(run, variant))
+            found.append(n.MathText(run, variant))
             run = ""
 
     while i < end:
@@ -78,7 +78,7 @@ def plain(p: Parser, start: int, end: int, command: str) -> list[str]:
     """The text between two positions where mathematics is not allowed."""
     found = []
     for node in text(p, start, end, "normal"):
-        if not isinstance(node, n.Text):
+        if not isinstance(node, n.MathText):
             raise p.lexer.error(f"{command} takes plain text without formulas", start)
         found.append(node.text)
     return found

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from notebook_reports.ledger.difference import literal
+from notebook_reports.ledger.difference import as_plain_markdown
 from notebook_reports.project.project import EnvironmentProblem
 
 DOTS = 50  # per inch
@@ -45,7 +45,7 @@ def changed(before: Path, after: Path, pictures: Path | None = None) -> list[Cha
     return found
 
 
-def told(found: Sequence[Changed], form: str) -> str:
+def changes_told(found: Sequence[Changed], form: str) -> str:
     """One line for each report."""
     lines = []
     for one in found:
@@ -57,7 +57,7 @@ def told(found: Sequence[Changed], form: str) -> str:
         )
         lines.append(f"{one.report}: pages {numbers} of {one.after} changed")
     lines = lines or ["no page of any report looks otherwise"]
-    return "\n".join(f"- {literal(line)}" if form == "md" else line for line in lines)
+    return "\n".join(f"- {as_plain_markdown(line)}" if form == "md" else line for line in lines)
 
 
 def _pages(file: Path) -> list[np.ndarray]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from notebook_reports.display import Table
 from notebook_reports.export.page import LinkedTable, Page
-from notebook_reports.ledger.captions import told
+from notebook_reports.ledger.captions import verb_of
 from notebook_reports.ledger.coverage import VERDICTS, Count, by_document, total
 from notebook_reports.ledger.files import NUMBERS, natural
 from notebook_reports.ledger.glossary import Term
@@ -27,7 +27,7 @@ from notebook_reports.ledger.verdicts import (
     ROUNDED,
 )
 from notebook_reports.pages.errata import FALSE, HARMLESS, MISLEADS, Erratum, errata
-from notebook_reports.pages.medium import Medium, To, at, beside, code, literal, short
+from notebook_reports.pages.medium import Medium, To, as_code, beside, place_of, plain_words, short
 
 GOOD = {GIVEN, REPEATED, REPRODUCED, ROUNDED, QUOTED, READ, HOLDS}
 NAMES = {"value": "values", "claim": "statements", "misprint": "misprints"}
@@ -70,7 +70,7 @@ def sentences(counts: Sequence[Count]) -> list[str]:
     for table in TABLES:
         if not whole.printed[table]:
             continue
-        verdicts = ", ".join(f"{n} {told(verdict, n)}" for verdict, n in whole.of(table))
+        verdicts = ", ".join(f"{n} {verb_of(verdict, n)}" for verdict, n in whole.of(table))
         word = {"value": "printed values", "claim": "statements tested", "misprint": "misprints found"}[table]
         lines.append(f"{whole.printed[table]} {word}: {verdicts or 'none checked'}")
     if whole.unchecked:
@@ -97,7 +97,7 @@ def coverage_page(counts: Sequence[Count]) -> Content:
     ]
     missing = [c for c in counts if c.unchecked]
     if missing:
-        lines = [f"- {c.document}, {literal(c.place)}: {', '.join(id for _, id in c.unchecked)}" for c in missing]
+        lines = [f"- {c.document}, {plain_words(c.place)}: {', '.join(id for _, id in c.unchecked)}" for c in missing]
         content.append("No notebook checks these entries:\n\n" + "\n".join(lines))
     for document in documents:
         here = [c for c in counts if c.document == document.document]
@@ -112,8 +112,8 @@ def coverage_page(counts: Sequence[Count]) -> Content:
 
 def _coverage_row(count: Count) -> list[str]:
     values, claims, misprints = (_number(count.printed[t]) for t in TABLES)
-    verdicts = [", ".join(f"{n} {told(v, n)}" for v, n in count.of(t)) for t in TABLES]
-    return [literal(count.place), values, verdicts[0], claims, verdicts[1], misprints]
+    verdicts = [", ".join(f"{n} {verb_of(v, n)}" for v, n in count.of(t)) for t in TABLES]
+    return [plain_words(count.place), values, verdicts[0], claims, verdicts[1], misprints]
 
 
 def _number(number: int) -> str:
@@ -157,10 +157,10 @@ def errata_page(medium: Medium, found: Sequence[LedgerRow]) -> Content:
 def _errata_table(medium: Medium, document: str, group: str, rows: Sequence[Erratum]) -> LinkedTable:
     if group == FALSE:
         columns = ["place", "the document says", "computed", medium.where]
-        made = [[literal(e.found.place), e.printed, e.note, at(e.found)] for e in rows]
+        made = [[plain_words(e.found.place), e.printed, e.note, place_of(e.found)] for e in rows]
         return medium.table(columns, made, f"{document}: statements that do not hold")
     columns = ["place", "printed", "correct", "what is wrong", medium.where]
-    made = [[literal(e.found.place), *_forms(e), e.note, at(e.found)] for e in rows]
+    made = [[plain_words(e.found.place), *_forms(e), e.note, place_of(e.found)] for e in rows]
     caption = {MISLEADS: "errors that mislead", HARMLESS: "slips that mislead nobody"}[group]
     return medium.table(columns, made, f"{document}: {caption}")
 
@@ -169,7 +169,7 @@ def _forms(wrong: Erratum) -> tuple[str, str]:
     if wrong.kind == "number":
         unit = wrong.found.fields["unit"]
         return f"{short(wrong.printed)} {unit}".strip(), f"{beside(wrong.corrected, wrong.printed)} {unit}".strip()
-    show = literal if wrong.kind in PLAIN_KINDS else code
+    show = plain_words if wrong.kind in PLAIN_KINDS else as_code
     return show(wrong.printed), show(wrong.corrected)
 
 
@@ -188,7 +188,7 @@ def open_page(medium: Medium, found: Sequence[LedgerRow]) -> Content:
     values = [r for r in _sorted(chosen) if r.table == "value"]
     if values:
         columns = ["place", "quantity", "printed", "exact", "why", medium.where, "verdict"]
-        rows = [[_place(r), *_value(r)[:3], r.fields["reason"], at(r), r.verdict] for r in values]
+        rows = [[_place(r), *_value(r)[:3], r.fields["reason"], place_of(r), r.verdict] for r in values]
         content += ["## Values", medium.table(columns, rows, "Values that are not reproduced", (), _marks(values))]
     claims = [r for r in _sorted(chosen) if r.table == "claim"]
     if claims:
@@ -198,7 +198,7 @@ def open_page(medium: Medium, found: Sequence[LedgerRow]) -> Content:
         content.append(_claims(medium, here, f"{document}: statements that hold in part"))
     failed = [r for r in chosen if r.table == "misprint"]
     if failed:
-        rows = [[_place(r), code(r.fields["printed"]), at(r), r.verdict] for r in failed]
+        rows = [[_place(r), as_code(r.fields["printed"]), place_of(r), r.verdict] for r in failed]
         columns = ["place", "printed", medium.where, "verdict"]
         content.append(medium.table(columns, rows, "Misprints that are not confirmed", (), _marks(failed)))
     return content
@@ -229,7 +229,7 @@ def reproduced_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
                 medium.where,
                 "verdict",
             ]
-            rows = [[literal(r.place), *_value(r), at(r), r.verdict] for r in values]
+            rows = [[plain_words(r.place), *_value(r), place_of(r), r.verdict] for r in values]
             align = ["left", "left", *["right"] * 4, "right" if medium.paper else "left", "left"]
             content.append(medium.table(columns, rows, f"{document}: values", align, _marks(values)))
         claims = [r for r in here if r.table == "claim"]
@@ -240,7 +240,7 @@ def reproduced_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
 
 def _claims(medium: Medium, claims: Sequence[LedgerRow], caption: str) -> LinkedTable:
     columns = ["place", "the document says", "computed", medium.where, "verdict"]
-    rows = [[literal(r.place), r.fields["says"], r.fields["evidence"], at(r), r.verdict] for r in claims]
+    rows = [[plain_words(r.place), r.fields["says"], r.fields["evidence"], place_of(r), r.verdict] for r in claims]
     return medium.table(columns, rows, caption, (), _marks(claims))
 
 
@@ -252,7 +252,7 @@ def _value(found: LedgerRow) -> tuple[str, str, str, str, str]:
 
 
 def _place(found: LedgerRow) -> str:
-    return f"{found.document}, {literal(found.place)}"
+    return f"{found.document}, {plain_words(found.place)}"
 
 
 def _marks(found: Iterable[LedgerRow]) -> list[str]:
@@ -286,10 +286,10 @@ def index_page(medium: Medium, found: Iterable[LedgerRow], chapters: Mapping[str
                 key = (record.place, record.notebook, record.section)
                 met[key] = min(record, met.get(key, record), key=lambda r: r.cell)
         ordered = sorted(met.values(), key=lambda r: (natural(r.place), r.notebook, r.cell))
-        rows = [
-            [literal(r.place), To(chapters.get(r.notebook, r.notebook), r.notebook), *_section(medium, r), at(r)]
-            for r in ordered
-        ]
+        rows = []
+        for r in ordered:
+            chapter = To(chapters.get(r.notebook, r.notebook), r.notebook)
+            rows.append([plain_words(r.place), chapter, *_section(medium, r), place_of(r)])
         columns = ["place", "chapter", *(["section"] if medium.paper else []), medium.where]
         align = ["left", "left", "left", "right"] if medium.paper else ["left"] * 3
         content += [f"## {document}", medium.table(columns, rows, f"{document}: places", align)]
@@ -297,4 +297,4 @@ def index_page(medium: Medium, found: Iterable[LedgerRow], chapters: Mapping[str
 
 
 def _section(medium: Medium, found: LedgerRow) -> list[str]:
-    return [at(found).section] if medium.paper else []
+    return [place_of(found).section] if medium.paper else []

@@ -42,7 +42,7 @@ class To:
         return f"notebook:{self.notebook}"
 
 
-def at(found: LedgerRow) -> At:
+def place_of(found: LedgerRow) -> At:
     """Where a record stands; the words of its heading without their links."""
     return At(found.notebook, found.cell, re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", found.section))
 
@@ -105,16 +105,16 @@ def as_sections(pages: Sequence[Page]) -> list[Any]:
     return content
 
 
-def literal(text: str) -> str:
+def plain_words(text: str) -> str:
     r"""Plain words as inline text.
 
-    >>> literal("costs 5 $")
+    >>> plain_words("costs 5 $")
     'costs 5 \\$'
     """
     return display.literal(" ".join(text.split()))
 
 
-def code(text: str) -> str:
+def as_code(text: str) -> str:
     """A formula or a line of a program as it is printed, as inline text."""
     return "`" + " ".join(text.split()).replace("`", "'") + "`" if text.strip() else ""
 

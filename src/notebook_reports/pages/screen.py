@@ -12,7 +12,7 @@ from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.scripts import policy
 from notebook_reports.export.write.html import HtmlWriter
 from notebook_reports.export.write.mathematics_font import font_face
-from notebook_reports.ledger.captions import told
+from notebook_reports.ledger.captions import verb_of
 from notebook_reports.ledger.coverage import VERDICTS, Count, by_document, total
 from notebook_reports.ledger.files import FILES
 from notebook_reports.ledger.row import TABLES, LedgerRow
@@ -92,7 +92,7 @@ def chips(verdicts: Mapping[str, Mapping[str, int]]) -> list[tuple[str, list[tup
         number = sum(given.values())
         if number:
             name = ONE[NAMES[table]] if number == 1 else NAMES[table]
-            marks = [(MARKS[v], f"{given[v]} {told(v, given[v])}") for v in VERDICTS[table] if given.get(v)]
+            marks = [(MARKS[v], f"{given[v]} {verb_of(v, given[v])}") for v in VERDICTS[table] if given.get(v)]
             rows.append((f"{number} {name}", marks))
     return rows
 
@@ -104,7 +104,7 @@ def bars(count: Count) -> list[tuple[str, list[tuple[str, str, str]]]]:
         given = count.of(table)
         number = sum(n for _, n in given)
         if number:
-            pieces = [(MARKS[v], f"{n} {told(v, n)}", f"{100 * n / number:.2f}") for v, n in given]
+            pieces = [(MARKS[v], f"{n} {verb_of(v, n)}", f"{100 * n / number:.2f}") for v, n in given]
             rows.append((f"{number} {ONE[NAMES[table]] if number == 1 else NAMES[table]}", pieces))
     return rows
 

@@ -54,7 +54,7 @@ def _show_the_same_everywhere() -> None:
     canonical form knows them: IPython writes ``~`` for a home, whatever that is."""
     from IPython.utils import path
 
-    path.compress_user = str
+    path.compress_user = lambda path: path
     told = warnings.formatwarning
 
     def formatwarning(

@@ -54,6 +54,7 @@ class WarmProvisioner(LocalProvisioner):
     """jupyter_client's way to start a kernel, by a fork where that works."""
 
     warm: Warm | None = None
+    process: Any  # a Popen, or a `Forked` that does what is asked of one
 
     async def launch_kernel(self, cmd: list[str], **kwargs: Any) -> Any:
         kernel = None

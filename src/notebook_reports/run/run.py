@@ -98,7 +98,7 @@ papermill_engines.register("loopbook", _Engine)
 papermill_translators.register("loopbook", _Translator)
 
 
-def run(
+def run_notebook(
     source: Source, name: str, project: Project, parameters: Mapping[str, Any] | None = None, timeout: float = 600
 ) -> Run:
     """Run a notebook from the first cell to the last or to the first that fails.
@@ -137,7 +137,9 @@ def _elsewhere(source: Source, project: Project) -> Path | None:
     return None if folder.is_relative_to(project.root) else folder
 
 
-def _execute(notebook: nbformat.NotebookNode, folder: Path, project: Project, timeout: float):
+def _execute(
+    notebook: nbformat.NotebookNode, folder: Path, project: Project, timeout: float
+) -> tuple[Exception | None, kernels.Client | None]:
     """(the exception that ended the run or None, the client or None where there was no kernel)."""
     for attempt in range(1, kernels.STARTS + 1):
         clients: list[kernels.Client] = []

@@ -13,22 +13,21 @@ read: set[str] = set()
 set_here: set[str] = set()
 
 
+class Noting(os._Environ[str]):
+    """`os.environ`, which notes what is read and what is set."""
+
+    def __getitem__(self, key: str) -> str:
+        if isinstance(key, str) and key not in set_here and _matters(key, sys._getframe(1).f_code.co_name):
+            read.add(key)
+        return super().__getitem__(key)
+
+    def __setitem__(self, key: str, value: str) -> None:
+        set_here.add(key)
+        super().__setitem__(key, value)
+
+
 def watch() -> None:
     """Let `os.environ` note which variables are read."""
-    kind = type(os.environ)
-    if kind.__name__ == "Noting":
-        return
-
-    class Noting(kind):
-        def __getitem__(self, key):
-            if isinstance(key, str) and key not in set_here and _matters(key, sys._getframe(1).f_code.co_name):
-                read.add(key)
-            return super().__getitem__(key)
-
-        def __setitem__(self, key, value):
-            set_here.add(key)
-            super().__setitem__(key, value)
-
     os.environ.__class__ = Noting
 
 

@@ -85,7 +85,7 @@ def _become(order: dict, errors: int) -> None:
     os.chdir(order["cwd"])
     variables.take_over(order["env"])
     launcher = importlib.util.find_spec("ipykernel_launcher")
-    sys.argv = [launcher.origin if launcher else order["argv"][0], *order["argv"][1:]]
+    sys.argv = [(launcher and launcher.origin) or order["argv"][0], *order["argv"][1:]]
     numpy = sys.modules.get("numpy")
     if numpy is not None:
         numpy.random.seed()  # each kernel its own, as after a fresh import

@@ -133,3 +133,52 @@ def test_the_transfer_function_in_z():
 def test_errors(call, text):
     with pytest.raises(SamplingError, match=text):
         call()
+
+
+@pytest.mark.parametrize(
+    "G, step, share",
+    [
+        (10 / (S**2 + 3 * S + 10), R(1, 10), R(1, 2)),
+        ((S + 4) / (S**2 + S + 1), R(2, 5), R(3, 10)),
+        (1 / (S * (S**2 + S + 1)), R(1, 2), 0),
+        (1 / (S**2 + 1) ** 2, R(1, 3), R(1, 4)),
+        ((S + 1) / ((S**2 + 2 * S + 5) * (S + 3)), R(1, 5), R(9, 10)),
+        (3 / ((S**2 + S + 2) * (S**2 + 4)), R(1, 4), 0),
+    ],
+    ids=str,
+)
+def test_complex_poles_with_any_dead_time(G, step, share):
+    """Real expressions in cosines and sines, with the numbers of the numeric route."""
+    from loopbook.process.sampled import sample
+    from loopbook.process.transfer_function import Process
+
+    model = zero_order_hold(G, step, 2, share)
+    assert not (model.A.has(sp.I) or model.B.has(sp.I))
+    a, b = numbers(model)
+    num, den = ([float(c) for c in sp.Poly(p, S).all_coeffs()] for p in sp.fraction(sp.together(G)))
+    B, A = sample(Process(num, den, float((2 + share) * step)), float(step)).polynomials
+    assert a == pytest.approx(A, abs=1e-13)
+    assert b == pytest.approx(B, abs=1e-13)
+
+
+def test_the_published_fractional_delay_in_symbols():
+    """10 exp(-0.25 s)/(s^2 + 3 s + 10), sampled every 0.1 s, as MATLAB's page on c2d prints it."""
+    a, b = numbers(zero_order_hold(10 / (S**2 + 3 * S + 10), R(1, 10), 2, R(1, 2)))
+    assert [float(f"{c:.4g}") for c in (*a, *b[3:])] == [1, -1.655, 0.7408, 0.01187, 0.06408, 0.009721]
+
+
+def test_symbols_without_assumptions_are_real_numbers():
+    T, step, share, w, a, b = sp.symbols("T h lambda w a b")
+    known = {x: sp.Symbol(x.name, positive=True) for x in (T, step, share)}
+    plain, positive = (
+        zero_order_hold(1 / (1 + S * T), step, 1, share),
+        zero_order_hold(1 / (1 + S * known[T]), known[step], 1, known[share]),
+    )
+    assert plain.B.subs(known) == positive.B and plain.A.subs(known) == positive.A
+    oscillator = zero_order_hold(w**2 / (S**2 + w**2), step)
+    assert sp.simplify(oscillator.coefficients["b_1"] - (1 - sp.cos(step * w))) == 0
+    second = zero_order_hold(b / (S**2 + a * S + b), step)
+    at = {a: 3, b: 10, step: R(1, 10)}
+    exact = zero_order_hold(10 / (S**2 + 3 * S + 10), R(1, 10))
+    for name, value in second.coefficients.items():
+        assert abs(sp.N(value.subs(at) - exact.coefficients[name])) < 1e-14

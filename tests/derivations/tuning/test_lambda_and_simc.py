@@ -1,11 +1,13 @@
 """What the rules with a wanted time constant promise, in exact numbers: the loop transfer function that they leave."""
 
+import pytest
 import sympy as sp
 
+from derivations.tuning import direct_synthesis as synthesis
 from derivations.tuning import lambda_tuning, simc
 from derivations.tuning.letters import T_0, T_2, K_v, T, k, lam
 
-s = sp.Symbol("s")
+s = synthesis.s
 
 
 def loop(rule, plant):
@@ -47,3 +49,14 @@ def test_simc_for_an_integrating_process_is_the_limit_of_a_long_lag():
         for name in ("K", "Ti", "Td"):
             one = sp.sympify(getattr(stable, name), strict=True).subs(long).subs(k, K_v * T)
             assert sp.simplify(one - getattr(integrating, name)) == 0, f"{action}, {name}"
+
+
+def test_the_integral_time_of_an_integrator_gives_a_double_root():
+    gain, Ti = synthesis.slope_gain(), synthesis.integral_time_of_an_integrator()
+    roots = sp.roots(sp.numer(sp.together(s**2 + gain * K_v * (s + 1 / Ti))), s)
+    assert list(roots.values()) == [2] and all(root.is_negative for root in roots)
+
+
+def test_a_regulator_of_another_form_is_refused():
+    with pytest.raises(ValueError, match=r"is not of the form K \(1 \+ 1/\(s Ti\) \+ s Td\)"):
+        synthesis.standard(1 / (1 + synthesis.s))

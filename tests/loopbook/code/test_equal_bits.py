@@ -5,12 +5,13 @@ from prove import prove
 
 
 @pytest.mark.parametrize("compensated", [False, True], ids=["plain sum", "compensated sum"])
-def test_every_language_gives_the_same_bits(compensated, record_property):
+def test_every_language_gives_the_same_bits(compensated, record_property, share):
     some = (lambda title: "-O2" in title or "Text" in title or "V8" in title) if compensated else lambda title: True
-    proof = prove(300 if compensated else 2000, chosen=some, compensated=compensated)
+    samples = share(100, 300) if compensated else share(300, 2000)
+    proof = prove(samples, chosen=some, compensated=compensated)
     if not compensated:
         record_property("table", proof.text())
-        assert proof.fewest >= 1000, "a branch of the program is hardly taken"
+        assert proof.fewest >= samples / 2, "a branch of the program is hardly taken"
     ran = [row for row in proof.rows if not row.missing]
     assert {row.title.split(",")[0].split()[0] for row in ran} >= {"Structured"}
     assert all(row.numbers > 0 for row in ran)

@@ -10,18 +10,18 @@ sys.path.insert(0, str(Path(__file__).parent / "acceptance"))
 import prove_design as prove
 from synthetic import FAULTS, GUISES, make
 
-SHARES, EACH = 4, 10
+pytestmark = pytest.mark.long
 
 
-@pytest.mark.parametrize("share", range(SHARES))
 def test_designed_loops_hold_on_the_true_process(tmp_path, share):
-    results = prove.prove(range(share * EACH, (share + 1) * EACH), tmp_path)
+    number = share(8, 40)
+    results = prove.prove(range(number), tmp_path)
     bad = [str(r) for r in results if r.verdict in ("absurd", "error", "unstable")]
     assert not bad, bad
     held = [r for r in results if r.verdict == "held"]
-    good = [r for r in results if r.made.good]
-    refused = [str(r) for r in good if r.verdict == "refused"]
-    assert len(held) >= EACH - 2 and len(refused) <= 1, [str(r) for r in results if r.verdict != "held"]
+    refused = [str(r) for r in results if r.made.good and r.verdict == "refused"]
+    assert len(held) >= 0.8 * number, [str(r) for r in results if r.verdict != "held"]
+    assert len(refused) <= 0.1 * number, refused
 
 
 def test_the_records_come_in_every_guise_and_with_every_fault(tmp_path):
@@ -30,7 +30,7 @@ def test_the_records_come_in_every_guise_and_with_every_fault(tmp_path):
     assert {m.guise for m in made} == set(GUISES) - without and {m.fault for m in made} == set(FAULTS)
 
 
-def test_a_wrong_design_does_not_hold(tmp_path, monkeypatch):
+def test_a_wrong_design_does_not_hold(tmp_path, monkeypatch, share):
     """The judge tells a loop that is right from one that is not: with the gains tripled most fall."""
     from loopbook.design.study import Study
 
@@ -43,5 +43,5 @@ def test_a_wrong_design_does_not_hold(tmp_path, monkeypatch):
         return found
 
     monkeypatch.setattr(Study, "results", tripled)
-    verdicts = [r.verdict for r in prove.prove(range(6), tmp_path)]
+    verdicts = [r.verdict for r in prove.prove(range(share(3, 6)), tmp_path)]
     assert verdicts.count("held") < len(verdicts) / 2

@@ -11,7 +11,7 @@ from loopbook.design import placement, tables
 from loopbook.design.candidates import Candidate, candidates
 from loopbook.design.evaluation import evaluate, robustness, total_variation
 from loopbook.design.model import Model, ModelError
-from loopbook.design.model_file import TEMPLATE, read_fixed, read_toml
+from loopbook.design.model_file import TEMPLATE, read_fixed, read_model
 from loopbook.design.program import round_down, sampled_program
 from loopbook.design.recommendation import AIMS, AimError, recommend
 from loopbook.design.running import Running
@@ -172,7 +172,7 @@ def test_a_process_file_that_cannot_be_used_says_why(tmp_path, text, message):
     file = tmp_path / "p.toml"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=message):
-        read_toml(file)
+        read_model(file)
 
 
 def test_a_process_file_is_read(tmp_path):
@@ -180,7 +180,7 @@ def test_a_process_file_is_read(tmp_path):
     file.write_text(
         "[process]\ngain = -2\ntime_constants = [4, 10.0]\ndelay = 3\n[experiment]\nK180 = 0.2\nT180 = 20\n"
     )
-    model = read_toml(file)
+    model = read_model(file)
     assert (model.gain, model.lags, model.delay) == (-2.0, (10.0, 4.0), 3.0)
     assert model.frequency.Ku == 5.0
     assert model.latex() == r"G(s) = \frac{-2}{(1 + 10 s) (1 + 4 s)} e^{-3 s}"
@@ -190,13 +190,13 @@ def test_a_single_time_constant_is_a_number(tmp_path):
     file = tmp_path / "p.toml"
     for text in ("time_constants = 3", "time_constant = 3.0", "time_constants = [3]"):
         file.write_text(f"[process]\ngain = 2\ndelay = 0\n{text}\n", encoding="utf-8")
-        assert read_toml(file).lags == (3.0,)
+        assert read_model(file).lags == (3.0,)
 
 
 def test_the_template_is_a_model_file(tmp_path):
     file = tmp_path / "p.toml"
     file.write_text(TEMPLATE, encoding="utf-8")
-    assert read_toml(file).lags == (10.0, 4.0)
+    assert read_model(file).lags == (10.0, 4.0)
 
 
 def test_many_lags_print_as_powers_or_as_a_product():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loopbook.identification.graphical import first_step, readings
+from loopbook.identification.graphical import first_step, graphical_readings
 from loopbook.identification.models import FIRST_ORDER
 from loopbook.records.reading import read_record
 from loopbook.records.record import Record
@@ -21,7 +21,7 @@ def made(noise=0.0, length=120.0):
 
 @pytest.mark.parametrize(("noise", "tolerance"), [(0.0, 0.02), (0.01, 0.12)])
 def test_both_rules_find_a_first_order_model(noise, tolerance):
-    found = {r.rule: r.values for r in readings(made(noise))}
+    found = {r.rule: r.values for r in graphical_readings(made(noise))}
     for rule in ("tangent and 63 %", "28.3 % and 63.2 %"):
         assert found[rule]["Kp"] == pytest.approx(1.5, rel=0.01)
         assert found[rule]["T"] == pytest.approx(10.0, rel=tolerance)
@@ -37,13 +37,13 @@ def test_a_process_that_falls_and_an_input_that_is_measured_are_read_alike():
         (replace(plain, u=80 - plain.u), -1),
         (noisy, 1),
     ):
-        for reading in readings(record)[:2]:
+        for reading in graphical_readings(record)[:2]:
             assert reading.values["Kp"] == pytest.approx(1.5 * sign, rel=0.01), reading
             assert reading.values["T"] == pytest.approx(10.0, rel=0.05)
 
 
 def test_reasons_name_rules_not_functions():
-    reasons = [r.reason for r in readings(made(length=20)) + readings(made())]
+    reasons = [r.reason for r in graphical_readings(made(length=20)) + graphical_readings(made())]
     assert any("take the final tangent" in r for r in reasons) and any(
         "take the tangent and 63 %" in r for r in reasons
     )
@@ -51,7 +51,7 @@ def test_reasons_name_rules_not_functions():
 
 
 def test_a_response_that_has_not_settled_is_refused_with_the_reason():
-    found = {r.rule: r for r in readings(made(length=20))}
+    found = {r.rule: r for r in graphical_readings(made(length=20))}
     assert not found["28.3 % and 63.2 %"].values and "no steady state" in found["28.3 % and 63.2 %"].reason
 
 
@@ -60,7 +60,7 @@ def test_only_the_first_step_is_read(tmp_path):
     file.write_text(example.text(), encoding="utf-8")
     record = read_record(file)
     assert len(first_step(record).time) == 165 and first_step(made()).time[-1] == made().time[-1]
-    found = {r.rule: r.values for r in readings(record)}
+    found = {r.rule: r.values for r in graphical_readings(record)}
     assert found["tangent and 63 %"]["Kp"] == pytest.approx(2.4, rel=0.02)
 
 

@@ -9,7 +9,7 @@ from loopbook.documents.double_tank.tank_load import tank_disturbance
 from loopbook.loop.comparison import ComparedLoop, turns
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
-from loopbook.pole_placement.numeric import place
+from loopbook.pole_placement.numeric import place_numerically
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
 
@@ -18,7 +18,7 @@ TANK = Process([1 / 8360], [35, 12, 1], 2)
 
 def placed(q, process=TANK, h=1.0):
     B, A = sample(process, h).polynomials
-    return SampledLoop(process, place(B, A, with_zeros([q] * 3), h).regulator)
+    return SampledLoop(process, place_numerically(B, A, with_zeros([q] * 3), h).regulator)
 
 
 def test_a_fast_sampled_loop_measures_like_the_continuous_one():

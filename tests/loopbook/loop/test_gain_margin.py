@@ -62,3 +62,13 @@ def test_random_rational_loops_are_at_the_border_at_their_margin(seed):
         assert_margin(loop)
     else:
         assert largest_real_part(loop.with_gain(1e9))[0] < 0
+
+
+def test_a_negative_static_gain_does_not_hide_an_earlier_oscillation():
+    """The gain at w = 0 bears a factor of 23, but the loop oscillates from 9.4 on."""
+    num = [1.3418981200544977, -2.7402704252657197, -4.401805676649418, -0.23093813635743216]
+    den = [1.0, 12.177311979957796, 44.46129535569, 70.07018684433704, 49.50997636583107, 12.8774168416, 1.66140519686]
+    loop = Loop(Process(num, den, 1.3), 0.3)
+    gain = loop.margins().gain
+    assert gain < 10 and loop.with_gain(gain * (1 - 1e-7)).is_stable
+    assert loop.with_gain(gain * (1 + 1e-7)).unstable_roots == 2

@@ -11,7 +11,7 @@ from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.sensitivity_peaks import Circle
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
-from loopbook.pole_placement.numeric import place
+from loopbook.pole_placement.numeric import place_numerically
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process, ProcessError
 from loopbook.response.simulation import SimulationError, simulate
@@ -130,7 +130,7 @@ def test_simulation_errors(ask, says):
 
 def double_tank(q):
     B, A = sample(TANK, 1.0).polynomials
-    return SampledLoop(TANK, place(B, A, with_zeros([q] * 3), 1.0).regulator)
+    return SampledLoop(TANK, place_numerically(B, A, with_zeros([q] * 3), 1.0).regulator)
 
 
 @pytest.mark.parametrize("q", [0.3, 0.5, 0.7])

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from scipy.signal import lfilter
 
 from derivations.algebra.delay_polynomials import Z, difference_equation
-from derivations.pole_placement.diophantine import integrators, place
-from loopbook.numerics.recursion import DifferenceEquationError, Recursion, recursion, simulate
+from derivations.pole_placement.diophantine import integrators, place_exactly
+from loopbook.numerics.recursion import DifferenceEquationError, Recursion, recursion, run_recursion
 
 a1, a2, b3, b4, q = sp.symbols("a_1 a_2 b_3 b_4 q")
-TANKS = place(1 + a1 / Z + a2 / Z**2, b3 / Z**3 + b4 / Z**4, (1 - q / Z) ** 3, integrators(1))
+TANKS = place_exactly(1 + a1 / Z + a2 / Z**2, b3 / Z**3 + b4 / Z**4, (1 - q / Z) ** 3, integrators(1))
 PRINTED = {"a_1": F("-1.686"), "a_2": F("0.7097"), "b_3": F("1.526e-6"), "b_4": F("1.361e-6")}
 k = sp.Symbol("k", integer=True)
 u, y = sp.Function("u"), sp.Function("y")
@@ -32,9 +32,9 @@ def test_two_programs_agree_sample_by_sample_in_fractions(pole):
     values = PRINTED | regulator(pole)
     equations = [recursion(TANKS.plant_equation(), values), recursion(TANKS.regulator_equation(), values)]
     step = {"r": [F(1)] * 40}
-    both = simulate(equations, step, 40)
+    both = run_recursion(equations, step, 40)
     closed = difference_equation(("y", TANKS.P.subs(q, pole)), {"r": TANKS.B * sp.Symbol("K_r")})
-    alone = simulate([recursion(closed, values)], step, 40)
+    alone = run_recursion([recursion(closed, values)], step, 40)
     assert both["y"] == alone["y"]
     assert all(isinstance(v, F) for v in both["y"][1:])
 
@@ -43,9 +43,9 @@ def test_a_changed_coefficient_breaks_the_agreement():
     values = PRINTED | regulator(sp.Rational(1, 2))
     values["d_1"] += 1
     equations = [recursion(TANKS.plant_equation(), values), recursion(TANKS.regulator_equation(), values)]
-    got = simulate(equations, {"r": [F(1)] * 40}, 40)["y"]
+    got = run_recursion(equations, {"r": [F(1)] * 40}, 40)["y"]
     closed = difference_equation(("y", TANKS.P.subs(q, sp.Rational(1, 2))), {"r": TANKS.B * sp.Symbol("K_r")})
-    assert got != simulate([recursion(closed, values)], {"r": [F(1)] * 40}, 40)["y"]
+    assert got != run_recursion([recursion(closed, values)], {"r": [F(1)] * 40}, 40)["y"]
 
 
 @settings(deadline=None, max_examples=30)
@@ -58,13 +58,13 @@ def test_floats_against_scipy(a, b):
         s.name: v for s, v in zip(names[1], b, strict=False)
     }
     inputs = np.cos(np.arange(50.0))
-    got = simulate([recursion(difference_equation(("y", A), {"u": B}), values)], {"u": inputs}, 50)["y"]
+    got = run_recursion([recursion(difference_equation(("y", A), {"u": B}), values)], {"u": inputs}, 50)["y"]
     assert np.array(got, dtype=float) == pytest.approx(lfilter([0, *b], [1, *a], inputs), rel=1e-9, abs=1e-9)
 
 
 def test_everything_before_the_first_sample_is_zero():
     delayed = Recursion("y", (("u", 3, 2),))
-    assert simulate([delayed], {"u": [1, 1, 1, 1, 1]}, 5)["y"] == [0, 0, 0, 2, 2]
+    assert run_recursion([delayed], {"u": [1, 1, 1, 1, 1]}, 5)["y"] == [0, 0, 0, 2, 2]
 
 
 @pytest.mark.parametrize(
@@ -74,10 +74,10 @@ def test_everything_before_the_first_sample_is_zero():
         (lambda: recursion(sp.Eq(y(k), y(k - 1) * u(k)), {}), "must be linear"),
         (lambda: recursion(sp.Eq(y(k), u(k) + 1), {}), "without a constant; 1 is not"),
         (lambda: recursion(sp.Eq(y(k), u(k + 1)), {}), r"u\(k \+ 1\) is no present or earlier sample"),
-        (lambda: simulate([Recursion("y", (("u", 0, 1),))], {}, 3), "y needs u, which nothing computes"),
-        (lambda: simulate([Recursion("y", (("u", 0, 1),))], {"u": [1]}, 3), "input u has 1 samples, 3 are needed"),
+        (lambda: run_recursion([Recursion("y", (("u", 0, 1),))], {}, 3), "y needs u, which nothing computes"),
+        (lambda: run_recursion([Recursion("y", (("u", 0, 1),))], {"u": [1]}, 3), "input u has 1 samples, 3 are needed"),
         (
-            lambda: simulate([Recursion("y", (("u", 0, 1),)), Recursion("u", (("y", 0, 1),))], {}, 3),
+            lambda: run_recursion([Recursion("y", (("u", 0, 1),)), Recursion("u", (("y", 0, 1),))], {}, 3),
             r"y\(k\) needs u\(k\), which is computed later",
         ),
     ],

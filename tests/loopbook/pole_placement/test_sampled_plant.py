@@ -12,7 +12,7 @@ from scipy.signal import cont2discrete
 from derivations.pole_placement.diophantine import CommonFactor
 from derivations.sampling.zero_order_hold import SamplingError
 from loopbook.documents.open import printed as load
-from loopbook.pole_placement.exact import place_poles
+from loopbook.pole_placement.exact_placement import place_poles
 from loopbook.pole_placement.sampled_plant import SampledPlant, sample_two_lags
 from notebook_reports.ledger.verdicts import rounds_to
 

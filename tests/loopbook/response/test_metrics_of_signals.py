@@ -10,7 +10,7 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.without_dead_time import metrics
 from loopbook.process.transfer_function import Process
 from loopbook.response.signal_metrics import measures
-from loopbook.response.step_metrics import StepMetricsError, exact
+from loopbook.response.step_metrics import StepMetricsError, exact_metrics
 
 
 @pytest.mark.parametrize("unit", [1e-6, 1.0, 3e4])
@@ -81,7 +81,9 @@ def test_a_loop_that_answers_at_once():
     assert loop.step().y(0.0) == pytest.approx(6 / 7)
     assert found.rise < loop.step().y.roots(0.9)[0] + 1e-12
     function = loop.step().y
-    assert exact(lambda t: function(t), 1.0, function.end, rest=0.0).settling == pytest.approx(found.settling, rel=1e-9)
+    assert exact_metrics(lambda t: function(t), 1.0, function.end, rest=0.0).settling == pytest.approx(
+        found.settling, rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -93,8 +95,8 @@ def test_signal_and_function_agree_where_a_grid_suffices(seed):
     y = loop.step().y
     delay = loop.process.delay
     corners = delay * np.arange(1, int(y.end / delay) + 1)
-    grid = exact(lambda t: y(t), 1.0, y.end, breakpoints=corners, points=40_000)
-    known = exact(y, 1.0, y.end)
+    grid = exact_metrics(lambda t: y(t), 1.0, y.end, breakpoints=corners, points=40_000)
+    known = exact_metrics(y, 1.0, y.end)
     for name in ("rise", "settling", "overshoot", "undershoot"):
         assert getattr(known, name) == pytest.approx(getattr(grid, name), rel=1e-8, abs=1e-8)
     assert measures(y, 1.0, 0.02, (0.1, 0.9)).peak == known.peak

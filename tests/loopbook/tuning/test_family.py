@@ -137,7 +137,7 @@ def test_what_the_half_rule_does_not_cover_is_refused_with_the_way_out():
     for process in (Process([1], [1, 0.2, 1], 1), Process([1, 1], [2, 3, 1], 1)):
         with pytest.raises(RuleDoesNotApply, match=r"use loopbook\.experiments\.step\.exact\(process\)"):
             tune(process, "simc")
-        assert tune(step.exact(process), "simc").K > 0
+        assert tune(step.step_data(process), "simc").K > 0
 
 
 @pytest.mark.parametrize(
@@ -212,7 +212,7 @@ def test_what_cannot_be_tuned_says_why(call, error, words):
 
 
 def test_what_an_experiment_found_is_taken():
-    found = relay.estimate(relay.run(Plant(STABLE)))
+    found = relay.estimate(relay.apply_relay(Plant(STABLE)))
     assert tune(found, "ziegler-nichols", "PID").values["T180"] == found.data.T180
     assert ProcessData.of(found, StepData(2, 10, 3)).numbers(Takes.FREQUENCY_AND_GAIN)[0]["kappa"] > 0
 

@@ -121,3 +121,30 @@ def test_second_order_without_dead_time_has_no_pid_optimum():
 def test_M_of_one_or_less_is_refused():
     with pytest.raises(ValueError, match="M must"):
         migo.pi(EXAMPLE, 1.0)
+
+
+LAST = {
+    "the loop gain tends to a constant": (
+        [-0.8584758497724649, 11.085369234321844],
+        [1, 0.16376192455, 0.00670196950],
+        0,
+    ),
+    "a flat valley": (
+        [6.995253152338087],
+        [1, 58.11119336806214, 0.47957382321966013, 0.006585129969787825],
+        0.02726084,
+    ),
+}
+
+
+@pytest.mark.parametrize("k", [1.0, 7.3e5, 3.1e-8])
+@pytest.mark.parametrize("num, den, delay", LAST.values(), ids=LAST)
+def test_the_last_feasible_point_does_not_depend_on_the_unit_of_time(num, den, delay, k):
+    process = Process(num, den, delay)
+    scaled = [np.array(p) * k ** np.arange(len(p) - 1, -1, -1.0) for p in (num, den)]
+    one, other = migo.pid(process), migo.pid(Process(*scaled, delay * k))
+    assert [other.K, other.Ti / k, other.Td / k] == pytest.approx([one.K, one.Ti, one.Td], rel=1e-9)
+    w = one.touches[0] * np.geomspace(1e-4, 1e5, 40_011)
+    for factor, inside in ((1.0, False), (1.001, True)):
+        gains = migo.smooth_branch(process, np.array(one.touches[0] * factor))
+        assert (migo.clearance(process, gains, w).min() < -1e-9) == inside

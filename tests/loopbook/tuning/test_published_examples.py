@@ -7,7 +7,7 @@ import pytest
 
 from loopbook.experiments.data import FrequencyData, StepData
 from loopbook.loop.continuous import Loop
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
 from loopbook.tuning import migo, tune
 from loopbook.tuning.half_rule import half_rule
@@ -138,7 +138,7 @@ def test_what_amigo_starts_from():
     from loopbook.experiments import step
 
     for process, T, L in ((FOURTH, 2.9, 1.42), (DELAYED, 0.0932, 1.01)):
-        found = step.exact(process)
+        found = step.step_data(process)
         assert (found.T, found.L) == pytest.approx((T, L), rel=0.01)
 
 

@@ -7,9 +7,9 @@ import pytest
 import typst
 
 from notebook_reports.export.model import Cell, Code, Grid, Math, Text
-from notebook_reports.export.write.column_widths import SIZE, deciding, extent, row_heights, unbroken, words
+from notebook_reports.export.write.column_widths import SIZE, breakable_words, deciding, extent, row_heights, unbroken
 from notebook_reports.export.write.typst_engine import fonts
-from notebook_reports.export.write.typst_text import literal
+from notebook_reports.export.write.typst_text import typst_string
 
 pytestmark = pytest.mark.builds
 
@@ -53,7 +53,7 @@ def column(texts, align="left", head=True):
 
 def measured(texts, tmp_path):
     """The width of each text in points as the engine sets it, the first one bold."""
-    bodies = ", ".join(f"[#{'strong' if i == 0 else ''}[#{literal(t)}]]" for i, t in enumerate(texts))
+    bodies = ", ".join(f"[#{'strong' if i == 0 else ''}[#{typst_string(t)}]]" for i, t in enumerate(texts))
     source = f'#set text(font: ("Libertinus Serif", "DejaVu Sans"), size: {SIZE}pt, number-type: "lining")\n'
     source += f"#context [#metadata(({bodies},).map(b => measure(b).width / 1pt)) <widths>]"
     (tmp_path / "main.typ").write_text(source, encoding="utf-8")
@@ -76,9 +76,9 @@ def test_the_longest_word_is_in_a_cell_that_is_measured(seed, tmp_path):
     draw = random.Random(seed)
     texts = [" ".join(draw.choices(VOCABULARY, k=draw.randint(3, 9))) for _ in range(40)]
     (chosen,) = deciding(column(texts, head=False)).solid
-    each = sorted({word for text in texts for word in words(text)})
+    each = sorted({word for text in texts for word in breakable_words(text)})
     width = dict(zip(each, measured(["", *each], tmp_path)[1:], strict=True))
-    longest = [max(width[word] for word in words(text)) for text in texts]
+    longest = [max(width[word] for word in breakable_words(text)) for text in texts]
     assert max(longest[place] for place in chosen) == pytest.approx(max(longest), rel=1e-12)
 
 

@@ -10,7 +10,7 @@ from notebook_reports.export.read.flat import flat
 from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.markdown import read_markdown
 from notebook_reports.export.read.reading import Reading
-from notebook_reports.export.write.typst_text import flowing, pieces
+from notebook_reports.export.write.typst_text import flowing, text_pieces
 
 TAGS = (
     "b i span div p ul ol li table tr td th h2 pre blockquote font center a code q details summary section dl dt dd int"
@@ -74,5 +74,5 @@ LETTERS = st.text(alphabet='ab :;.,!)(]/-\u200b"', max_size=200)
 
 @given(LETTERS, st.integers(4, 60))
 def test_places_to_break_change_no_character(text, longest):
-    assert "".join(piece for piece, _ in pieces(text, longest, longest)) == text.replace("\u200b", "")
+    assert "".join(piece for piece, _ in text_pieces(text, longest, longest)) == text.replace("\u200b", "")
     assert "\u200b" not in flowing(text, longest, longest)

@@ -8,10 +8,10 @@ from notebook_reports.export.errors import CannotShow
 from notebook_reports.export.model import Code, Math, Text, plain
 from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.read.reading import Reading
-from notebook_reports.export.read.tables import _NUMBER, align_numbers, place
+from notebook_reports.export.read.tables import _NUMBER, align_numbers, grid_of
 from notebook_reports.export.read.terminal import settle
-from notebook_reports.export.write.breaking import pieces
-from notebook_reports.export.write.typst_text import breakable, literal
+from notebook_reports.export.write.breaking import formula_pieces
+from notebook_reports.export.write.typst_text import breakable, typst_string
 
 TOKENS = [
     "a",
@@ -36,7 +36,7 @@ TOKENS = [
 
 @given(st.lists(st.sampled_from(TOKENS)).map("".join))
 def test_pieces_joined_are_the_formula(latex):
-    assert "".join(pieces(latex)) == latex
+    assert "".join(formula_pieces(latex)) == latex
 
 
 @pytest.mark.parametrize(
@@ -55,12 +55,12 @@ def test_pieces_joined_are_the_formula(latex):
     ],
 )
 def test_lines_end_outside_brackets_only(latex, count):
-    assert len(pieces(latex)) == count
+    assert len(formula_pieces(latex)) == count
 
 
 @given(st.text())
 def test_a_string_literal_holds_any_text(text):
-    inside = literal(text)[1:-1]
+    inside = typst_string(text)[1:-1]
     assert '"' not in inside.replace("\\\\", "").replace('\\"', "") and "\n" not in inside
 
 
@@ -125,6 +125,6 @@ def test_html_tables_keep_spans_heads_and_sides():
 def test_rows_of_a_grid_with_a_span_to_the_end():
     from notebook_reports.export.model import Cell
 
-    grid = place([[Cell([], rowspan=9), Cell([])], [Cell([])]], 0)
+    grid = grid_of([[Cell([], rowspan=9), Cell([])], [Cell([])]], 0)
     align_numbers(grid)
     assert [(c.x, c.y, c.rowspan) for c in grid.cells] == [(0, 0, 2), (1, 0, 1), (1, 1, 1)]

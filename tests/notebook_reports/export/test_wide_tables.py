@@ -1,6 +1,6 @@
 """A table in parts: every cell once, the naming column in each part; a column too wide becomes text."""
 
-from notebook_reports.export.model import Cell, Grid, Listing, Mend, Text, plain
+from notebook_reports.export.model import Cell, Grid, Mend, Text, Verbatim, plain
 from notebook_reports.export.write.wide_tables import split
 
 
@@ -27,5 +27,5 @@ def test_every_cell_is_in_one_part_and_the_first_column_in_each():
 
 def test_what_cannot_be_cut_stands_as_text():
     told, text = split(table(1), 0.2)
-    assert isinstance(told, Mend) and isinstance(text, Listing)
+    assert isinstance(told, Mend) and isinstance(text, Verbatim)
     assert text.text.count("\n") == 2 and text.text.startswith("r0c0")

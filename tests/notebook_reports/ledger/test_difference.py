@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from notebook_reports.cli import main
-from notebook_reports.ledger.difference import literal
+from notebook_reports.ledger.difference import as_plain_markdown
 
 HEAD = "document,place,id,says,verdict,evidence,notebook\n"
 
@@ -65,6 +65,6 @@ def test_markdown_shows_what_stands_in_the_ledger(text):
 
     import mistune
 
-    shown = mistune.create_markdown(plugins=["table", "url"])(f"x{literal(text)}x")
+    shown = mistune.create_markdown(plugins=["table", "url"])(f"x{as_plain_markdown(text)}x")
     words = " ".join("".join(c if c.isprintable() else " " for c in text).split())
     assert unescape(shown) == f"<p>x{words}x</p>\n"

@@ -4,7 +4,7 @@ import pytest
 import typst
 from PIL import Image
 
-from notebook_reports.pages.changed_pages import changed, told
+from notebook_reports.pages.changed_pages import changed, changes_told
 
 pytest.importorskip("pypdfium2", reason="pages are drawn by pypdfium2, of the extra docs")
 pytestmark = pytest.mark.builds
@@ -27,7 +27,7 @@ def test_a_changed_digit_a_new_page_and_a_report_that_went(tmp_path):
         ("a/gone.pdf", (1,), 1, 0),
         ("a/one.pdf", (1, 3), 2, 3),
     ]
-    assert told(found, "text") == "a/gone.pdf: gone\na/one.pdf: pages 1, 3 of 3 changed"
+    assert changes_told(found, "text") == "a/gone.pdf: gone\na/one.pdf: pages 1, 3 of 3 changed"
     drawn = sorted(p.name for p in (tmp_path / "pictures").iterdir())
     assert drawn == ["a-gone-1.png", "a-one-1.png", "a-one-3.png"]
     with Image.open(tmp_path / "pictures" / "a-one-1.png") as picture:
@@ -38,4 +38,4 @@ def test_a_changed_digit_a_new_page_and_a_report_that_went(tmp_path):
 
 def test_nothing_changed(tmp_path):
     pdf(tmp_path / "a/one.pdf", "x")
-    assert told(changed(tmp_path, tmp_path), "text") == "no page of any report looks otherwise"
+    assert changes_told(changed(tmp_path, tmp_path), "text") == "no page of any report looks otherwise"

@@ -7,7 +7,7 @@ from click.testing import CliRunner
 
 from loopbook.cli import main
 from loopbook.design.model import ModelError
-from loopbook.design.model_file import read_toml
+from loopbook.design.model_file import read_model
 from notebook_reports.ledger.glossary import terms
 from notebook_reports.ledger.printed_data import PrintedDataError, load
 from notebook_reports.memory import sealed
@@ -169,7 +169,7 @@ def test_a_broken_model_is_one_line(tmp_path, text, message):
     path = tmp_path / "model.toml"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(ModelError, match=rf"^model\.toml: .*{message}"):
-        read_toml(path)
+        read_model(path)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from sympy import Integer, Rational
 from sympy.printing.c import C99CodePrinter
 
 from derivations.programs.form import BOOL, COUNT, REAL, Do, Fill, Operation, Variable
-from loopbook.code.block import Block, finite
+from loopbook.code.block import Block, checked_finite
 from loopbook.code.c_extras import sketch, test_main
 from loopbook.code.language import Language, Options
 from loopbook.code.writing import Arithmetic, Writer, spoken
@@ -83,7 +83,7 @@ def literal(value: float | bool, real: str = "lb_real") -> str:
     """
     if isinstance(value, bool):
         return "true" if value else "false"
-    text = repr(abs(finite(float(value))))
+    text = repr(abs(checked_finite(float(value))))
     return f"{'-' if value < 0 else ''}({real}){text}"
 
 

@@ -12,7 +12,7 @@ from sympy import Integer, Rational, Symbol
 from sympy.printing.codeprinter import CodePrinter
 
 from derivations.programs.form import BOOL, COUNT, REAL, BlockProgram, Do, Fill, Operation, Variable
-from loopbook.code.block import Block, CodeError, finite
+from loopbook.code.block import Block, CodeError, checked_finite
 from loopbook.code.language import Language, Options
 from loopbook.code.writing import Arithmetic, Writer, kept_names, spoken
 
@@ -84,7 +84,7 @@ def literal(value: float | bool, real: str = "REAL") -> str:
     """
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
-    digits, _, power = repr(abs(finite(value))).partition("e")
+    digits, _, power = repr(abs(checked_finite(value))).partition("e")
     whole = digits if "." in digits else f"{digits}.0"
     return f"{'-' if value < 0 else ''}{real}#{whole}{f'E{int(power)}' if power else ''}"
 

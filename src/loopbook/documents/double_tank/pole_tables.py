@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from loopbook.pole_placement.exact import PlacedLoop
+from loopbook.pole_placement.exact_placement import PlacedLoop
 from loopbook.pole_placement.sampled_plant import SampledPlant
 from loopbook.response import step_metrics
 from notebook_reports.ledger.printed_data import PrintedDocument
@@ -12,10 +12,10 @@ from notebook_reports.ledger.printed_data import PrintedDocument
 MEASURES = ("rise", "settling", "overshoot", "peak")
 
 
-def coefficients(plant: SampledPlant, *prefixes: str) -> dict[str, Fraction]:
+def regulator_coefficients(plant: SampledPlant, *prefixes: str) -> dict[str, Fraction]:
     """The coefficients of a sampled plant once under each prefix: ``sampled-a1``, ....
 
-    >>> coefficients(SampledPlant((Fraction(-1, 2),), (Fraction(3),), Fraction(1)), "script-")
+    >>> regulator_coefficients(SampledPlant((Fraction(-1, 2),), (Fraction(3),), Fraction(1)), "script-")
     {'script-a1': Fraction(-1, 2), 'script-b1': Fraction(3, 1)}
     """
     return {f"{p}{name.replace('_', '')}": v for p in prefixes for name, v in plant.values.items()}
@@ -29,8 +29,8 @@ def parameters(loops: Mapping[float, PlacedLoop]) -> dict[str, Fraction]:
 
 
 def performance(responses: Mapping[float, Sequence[Any]], t: Sequence[float]) -> dict[str, float]:
-    """`step_metrics.sampled` of several responses: ``rise-q0.3`` [s], ``overshoot-q0.3`` [%], ...."""
-    measured = {q: step_metrics.sampled(y, t) for q, y in responses.items()}
+    """`step_metrics.sampled_metrics` of several responses: ``rise-q0.3`` [s], ``overshoot-q0.3`` [%], ...."""
+    measured = {q: step_metrics.sampled_metrics(y, t) for q, y in responses.items()}
     return {f"{name}-q{q}": getattr(m, name) for q, m in measured.items() for name in MEASURES}
 
 

@@ -1,8 +1,13 @@
 """The six figures that a PID tuning tool shows of a loop, computed exactly."""
 
+import numpy as np
+
 from loopbook.controllers.pid_forms import PidParallel, PidStandard
+from loopbook.experiments.data import FrequencyData
 from loopbook.loop.continuous import Loop
-from notebook_reports.ledger.verdicts import rounds_to
+from loopbook.process.transfer_function import Process
+from loopbook.tuning import tune
+from notebook_reports.ledger.verdicts import last_place, rounds_to
 
 NEARLY_IDEAL = 1e5
 """The pole [rad/s] of a derivative filter that stands for none."""
@@ -44,3 +49,22 @@ def structures(as_read: PidStandard, exact: PidStandard, N: float, other: float)
         f"on the measurement, pole $N = {N:g}$ rad/s": PidParallel(zn.P, zn.I, zn.D, N, c=0.0),
         f"$P$ and $D$ on the measurement, $N = {N:g}$": PidParallel(zn.P, zn.I, zn.D, N, b=0.0, c=0.0),
     }
+
+
+def reached(process: Process, gain: float, frequency: str, N: float, printed: dict[str, str]) -> dict[str, float]:
+    """For each figure the nearest number to its print that readings lead to which round to the printed one.
+
+    process: with dead time. gain: ultimate gain as printed [u/y]. frequency: digits of the ultimate frequency [rad/s];
+    21 readings that round to them are tried, with the Ziegler-Nichols settings and the filter pole N [rad/s], and those
+    are kept with which the other figures, settling time and overshoot left out, round to their prints.
+    """
+    free = ("settling", "overshoot")
+    middle, half = float(frequency), float(last_place(frequency)) / 2
+    kept = []
+    for w in np.linspace(middle - half, middle + half, 21):
+        form = tune(FrequencyData.from_ultimate(gain, 2 * np.pi / w), "zn-ultimate-pid").pid.parallel()
+        found = displayed(Loop(process, PidParallel(form.P, form.I, form.D, N)))
+        if all(rounds_to(found[name], digits) for name, digits in printed.items() if name not in free):
+            kept.append(found)
+    ends = {name: (min(f[name] for f in kept), max(f[name] for f in kept)) for name in printed}
+    return {name: float(np.clip(float(printed[name]), *ends[name])) for name in free}

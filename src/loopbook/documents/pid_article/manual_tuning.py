@@ -2,8 +2,8 @@
 
 Each cell of that table (pid-article, section "Strojenie ręczne") says what increasing one of Kp, Ti, Td does to
 stability, overshoot or settling time. "Stability" is measured by Ms, the peak of the sensitivity (its inverse is the
-distance of the Nyquist curve from -1). "Little" is made testable without a free number: the relative change of the
-settling time is smaller than that of the setting.
+distance of the Nyquist curve from -1). "Little" is what the table itself sets it against: the settling time changes by
+less, in relative terms, than the same increase of Ti changes it, the one cell of that column without the word.
 """
 
 from collections.abc import Callable
@@ -12,13 +12,13 @@ from functools import cache
 
 import numpy as np
 
-from loopbook.controllers.pid_forms import PidStandard
+from loopbook.controllers.pid_forms import LEFT_OUT, PidStandard
 from loopbook.documents.open import printed
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
-from loopbook.response.step_metrics import sampled
+from loopbook.response.step_metrics import sampled_metrics
 from loopbook.tuning.by_name import tune
 from notebook_reports.ledger.printed_data import Claim
 
@@ -59,12 +59,13 @@ def behaviour(loop: Loop) -> Behaviour:
         if abs(y[POINTS // 2 :] - final).max() < SETTLED * abs(final):
             break
         horizon *= 2
-    measured = sampled(y, t, final=final, band=0.02 * abs(final) / float(abs(y - final).max()))
+    measured = sampled_metrics(y, t, final=final, band=0.02 * abs(final) / float(abs(y - final).max()))
     return Behaviour(peak_sensitivity(loop), measured.overshoot, measured.settling)
 
 
-def _little(before: float, after: float, factor: float) -> bool:
-    return abs(after / before - 1) < abs(factor - 1)
+def _less(before: float, after: float, plain: float) -> bool:
+    change, other = (abs(np.log(x / before)) for x in (after, plain))
+    return bool(change < other)
 
 
 MEASURES: dict[str, Callable[[Behaviour, Behaviour], float]] = {
@@ -86,15 +87,21 @@ def said(cell: tuple[str, str]) -> Claim:
     return printed("pid-article").claims[CELLS[cell]]
 
 
-def holds(cell: tuple[str, str], before: Behaviour, after: Behaviour, factor: float) -> bool:
-    """Does a cell hold for a change of its setting by a factor? A loop that became unstable overshoots without end."""
+def holds(cell: tuple[str, str], before: Behaviour, after: Behaviour, plain: Behaviour) -> bool:
+    """Does a cell hold for a change of its setting? plain: what the same change of Ti leads to.
+
+    A loop that became unstable overshoots without end.
+    """
     claim, quality = said(cell), cell[1]
     lost = float("inf") in (after.overshoot, after.settling) and quality != "stability"
     change = float("inf") if lost else MEASURES[quality](before, after)
     if quality == "overshoot" and abs(change) <= SAME:
         change = 0.0
     right = claim.agrees("effect", change) if "effect" in claim.fields else True
-    return right and ("little" not in claim.says or _little(before.settling, after.settling, factor))
+    if "size" not in claim.fields:
+        return right
+    little = _less(before.settling, after.settling, plain.settling)
+    return right and little == claim.agrees("size", -1)
 
 
 def changed(pid: PidStandard, setting: str, factor: float) -> PidStandard:
@@ -106,7 +113,7 @@ def changed(pid: PidStandard, setting: str, factor: float) -> PidStandard:
         raise ValueError(
             f"setting = {setting!r}, factor = {factor}: one of {', '.join(SETTINGS)} and a positive factor"
         )
-    return replace(pid, **{setting: factor * getattr(pid, setting)}, N=None)
+    return replace(pid, **{setting: factor * getattr(pid, setting)}, N=LEFT_OUT)
 
 
 def cells(loop: Loop, factor: float) -> dict[tuple[str, str], bool]:
@@ -119,7 +126,7 @@ def cells(loop: Loop, factor: float) -> dict[tuple[str, str], bool]:
     if before.Ms == float("inf"):
         raise ValueError("the table describes changes of a stable loop; this one is unstable")
     after = {s: behaviour(Loop(loop.process, changed(loop.regulator, s, factor))) for s in SETTINGS}
-    return {cell: holds(cell, before, after[cell[0]], factor) for cell in CELLS}
+    return {cell: holds(cell, before, after[cell[0]], after["Ti"]) for cell in CELLS}
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,7 @@ def pole(name: str, h: float, Tf: float) -> float:
     return float(_gains(name)["pole"](h, Tf))
 
 
-def run(name: str, y: np.ndarray, h: float, Tf: float) -> np.ndarray:
+def filtered(name: str, y: np.ndarray, h: float, Tf: float) -> np.ndarray:
     """The filtered samples of y, from rest at 0."""
     a, now, before = (float(_gains(name)[key](h, Tf)) for key in ("pole", "now", "before"))
     out, last, filtered = np.empty(len(y)), 0.0, 0.0

@@ -30,15 +30,18 @@ class Prediction:
         return float(np.sqrt(np.mean((self.predicted - self.true) ** 2)))
 
 
-def predict(Td: float, Tf: float = 0.0, noise: float = 0.0, h: float = 0.05, end: float = 10.0) -> Prediction:
+def predict(
+    Td: float, Tf: float = 0.0, noise: float = 0.0, h: float = 0.05, end: float = 10.0, high_pass: bool = False
+) -> Prediction:
     """Predict `swing` Td ahead from samples every h: the signal plus the D part of a controller with K = 1.
 
-    Tf: time constant of the derivative's filter [s]. noise: standard deviation added to each sample.
-    The noise is the same on every call.
+    Tf: time constant of the derivative's filter [s]; it lets low frequencies pass, or, with high_pass, the others.
+    noise: standard deviation added to each sample, the same noise on every call.
     """
     t = np.arange(round(end / h) + 1) * h
     seen = swing(t) + noise * np.random.default_rng(7).standard_normal(len(t))
-    derivative = -Pid(PidSettings(K=1.0, Td=Td, Tf=Tf, h=h)).run(seen, 0.0) - seen
+    low, all_of_it = (-Pid(PidSettings(K=1.0, Td=Td, Tf=T, h=h)).run(seen, 0.0) - seen for T in (Tf, 0.0))
+    derivative = all_of_it - low if high_pass else low
     return Prediction(t[1:], (seen + derivative)[1:], swing(t[1:] + Td))
 
 

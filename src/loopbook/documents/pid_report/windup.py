@@ -67,18 +67,29 @@ def spike(anti_windup: str, Tt: float | None = None, size: float = 1.0) -> tuple
     return run, np.array(observed.integral)
 
 
-def locked(rule: str) -> tuple[Simulation, np.ndarray]:
-    """A step of the set-point from rest: K = 6, Ti = 1.2 s, Td = 1.8 s, no filter, limits 0 and 1, set-point 0.8.
+def locked(rule: str, K: float = 6.0, Ti: float = 1.2, Td: float = 1.8) -> tuple[Simulation, np.ndarray]:
+    """A step of the set-point to 0.8 from rest, limits 0 and 1, no filter; times in s.
 
     rule: "4.7" for the printed program, else a rule of anti-windup for `Pid` with the same settings and derivative
     on the error. The run of 60 s and I over time.
     """
-    tuned = PidSettings(K=6.0, Ti=1.2, Td=1.8, c=1.0, h=H, u_low=0.0, u_high=1.0)
+    tuned = PidSettings(K=K, Ti=Ti, Td=Td, c=1.0, h=H, u_low=0.0, u_high=1.0)
     if rule == "4.7":
         observed = watched(ProgramController("4.7", tuned))
     else:
         observed = watched(Pid(tuned.changed(anti_windup=rule), x=0.0))
     return simulate(PROCESS, observed, H, 600, reference=0.8), np.array(observed.integral)
+
+
+def locking() -> tuple[int, int]:
+    """(loops that figure 4.7 locks up, loops): of 48 settings those that settle with the safe conditional integration.
+
+    K from 1 to 6, Ti from 1.2 to 4 s, Td from 0 to 1.8 s; settled is within 0.01 of the set-point after 60 s.
+    """
+    grid = [(K, Ti, Td) for K in (1.0, 2.0, 4.0, 6.0) for Ti in (1.2, 2.0, 4.0) for Td in (0.0, 0.4, 0.9, 1.8)]
+    settles = lambda rule, one: abs(locked(rule, *one)[0].y[-1] - 0.8) < 0.01  # noqa: E731
+    sound = [one for one in grid if settles("conditional-safe", one)]
+    return sum(not settles("4.7", one) for one in sound), len(sound)
 
 
 def transfer(way: str, error: float, seconds: float = 20.0) -> float:

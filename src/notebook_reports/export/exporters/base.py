@@ -13,7 +13,7 @@ from traitlets import Bool, Unicode, default
 from notebook_reports.export.code_cells import CODE, place_code
 from notebook_reports.export.errors import ExportError, Problem
 from notebook_reports.export.formulas import as_mathml, as_text, as_typst
-from notebook_reports.export.mends import MODES, lines
+from notebook_reports.export.mends import MODES, mend_lines
 from notebook_reports.export.model import Display, Math, Report, walk
 from notebook_reports.export.read.notebook import PARTS, read
 from notebook_reports.export.write.typst_engine import TypstFailed, cell_finder, explain
@@ -47,8 +47,6 @@ class ReportExporter(TemplateExporter):
         "inline", help="Where the code stands: in its place (inline), after the last section (end), nowhere (none)."
     ).tag(config=True)
     folded = Bool(False, help="On the screen, code is shown to who opens it.").tag(config=True)
-
-    export_from_notebook = None
 
     @default("extra_template_basedirs")
     def _own_templates(self) -> list[str]:
@@ -101,7 +99,7 @@ class ReportExporter(TemplateExporter):
         """Say what was mended, on the standard error of the nbconvert command, and in the resources."""
         resources["loopbook_mends"] = report.mends
         resources["loopbook_report"] = report
-        for line in lines(report):
+        for line in mend_lines(report):
             self.log.warning(line)
 
     def from_filename(self, filename: str, resources: Any = None, **kw: Any) -> tuple[Any, Any]:

@@ -13,7 +13,7 @@ from traitlets import default
 from notebook_reports.export.around import Around, Tools
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, ReportExporter, problems
-from notebook_reports.export.mends import number
+from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import Report
 from notebook_reports.export.write.html import HtmlWriter
 from notebook_reports.export.write.html_frame import bar, contents, onward
@@ -53,7 +53,7 @@ class HtmlExporter(ReportExporter):
         report = self.report(nb, resources)
         if self.mended(resources):
             mend_formulas(report, "mathml")
-            number(report)
+            number_mends(report)
             self.tell(report, resources)
         told = resources.get("loopbook", {})
         text = self.render(report, told.get("around"), told.get("folded", self.folded))

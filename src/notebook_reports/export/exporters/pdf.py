@@ -17,13 +17,13 @@ from notebook_reports.export.exporters.base import (
     problems,
     support_files,
 )
-from notebook_reports.export.mends import number
+from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import Report
 from notebook_reports.export.write.arrangement import AS_IT_COMES, Arrangement
 from notebook_reports.export.write.mending import Written, compile_mending, mend_formulas
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
 from notebook_reports.export.write.typst_engine import TypstFailed, compile_settled
-from notebook_reports.export.write.typst_text import literal
+from notebook_reports.export.write.typst_text import typst_string
 
 
 class PdfExporter(ReportExporter):
@@ -50,7 +50,7 @@ class PdfExporter(ReportExporter):
         for_paper(report)
         if self.mended(resources):
             mend_formulas(report, "typst")
-            number(report)
+            number_mends(report)
         elif found := problems(report, "typst"):
             raise ExportError(report.name, found)
         return report
@@ -63,7 +63,7 @@ class PdfExporter(ReportExporter):
     def written(self, report: Report, layout: Arrangement = AS_IT_COMES) -> Written:
         """The same, and the tables written, by the names that the engine calls them."""
         writer = TypstWriter(report.name, layout=layout, naming=report.mended)
-        told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": literal}
+        told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": typst_string}
         text = self.template.render(**told, functions=IMPORT)
         return text, {**support_files(), **writer.files}, writer.grids
 

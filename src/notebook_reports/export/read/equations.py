@@ -39,7 +39,7 @@ def _number(node: Display, count: int, document: str, places: dict[str, Place]) 
         return count
     rows = rows_of(whole[2]) if whole and whole[1] in NUMBERED_ROWS else [node.latex]
     solid = [row for row in rows if row.strip()]
-    if len(solid) <= 1:
+    if len(solid) <= 1 or not whole:
         wanted = not node.label and not _OWN.search(node.latex)
         count += wanted
         node.label = str(count) if wanted else node.label

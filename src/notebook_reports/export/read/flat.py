@@ -9,18 +9,18 @@ from notebook_reports.export.model import (
     Code,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Grid,
     Heading,
     Inline,
-    Listing,
     Math,
     Mend,
     Paragraph,
     Quote,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
 )
 
 
@@ -63,7 +63,7 @@ def _parts(blocks: list[Block]) -> list[list[Inline]]:
                 parts.append([Styled("strong", children)])
             case Display(latex):
                 parts.append([Math(latex)])
-            case Listing(text):
+            case Verbatim(text):
                 parts += [[Code(line)] for line in text.split("\n")]
             case Bullets(items):
                 marks = [item_mark(n, block.style) if block.ordered else "•" for n in block.numbers]
@@ -72,11 +72,11 @@ def _parts(blocks: list[Block]) -> list[list[Inline]]:
                 parts += [[Styled("strong", term), Text(" "), *flat(body)] for term, body in items]
             case Quote(inside) | Alert(_, inside):
                 parts += _parts(inside)
-            case Figure(picture, caption):
+            case FigureBlock(picture, caption):
                 parts += [[picture], *([caption] if caption else [])]
             case Mend():
                 parts.append([block])
-            case Rule():
+            case ThematicBreak():
                 continue
             case Grid():
                 raise CannotShow("an HTML table inside a table cell; show the tables one after the other")

@@ -6,8 +6,9 @@ name.
 """
 
 import re
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, TypeVar
 
 from bs4 import CData, Comment, Declaration, Doctype, NavigableString, ProcessingInstruction, Tag
 
@@ -22,21 +23,21 @@ from notebook_reports.export.model import (
     Coloured,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Grid,
     Heading,
     Inline,
-    Item,
     Link,
-    Listing,
+    ListItem,
     Math,
     Mend,
     Paragraph,
     Picture,
     Quote,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
     plain,
 )
 from notebook_reports.export.read import html_tables, pictures
@@ -61,6 +62,7 @@ _NOT_SHOWN = (Comment, Declaration, Doctype, ProcessingInstruction, CData)
 _HEADING = re.compile(r"h[1-6]")
 _LINE = {*STYLES, *CODE, *THROUGH, *CONTROLS, "a", "br", "img", "image", "x-math", "x-text", "x-svg", "math"}
 _FOR_FORMULAS = re.compile(r"\A\s*(/\*.*?\*/\s*|//[^\n]*\n\s*)*MathJax\.Hub\.Config\(", re.DOTALL)
+LineNode = TypeVar("LineNode", bound=Inline | Display)
 _NO_SCRIPT = re.compile(r"json|template|html|math/tex|plain|glsl|x-shader")
 
 
@@ -114,7 +116,7 @@ class HtmlReader:
                 line.extend(self.inline(child, math))
                 continue
             close()
-            blocks.extend(self.reading.attempt(lambda child=child: self.block(child, math)))
+            blocks.extend(self.reading.attempt(partial(self.block, child, math)))
         close()
         return blocks
 
@@ -132,7 +134,7 @@ class HtmlReader:
         name, look = tag.name, self.looks.of(tag)
         math = math and not says_no_math(tag)
         if look.hidden:
-            return self.hidden(tag)
+            return [*self.hidden(tag)]
         if name in DROPPED:
             return []
         if name in EMBEDDED:
@@ -156,7 +158,7 @@ class HtmlReader:
                 for br in tag.find_all("br"):
                     br.replace_with("\n")
                 text = visible(tag.get_text().expandtabs(8)).strip("\n")
-                return [Listing(text, "code", str(tag.get("data-language", "")))] if text.strip() else []
+                return [Verbatim(text, "code", str(tag.get("data-language", "")))] if text.strip() else []
             case "ul" | "ol" | "menu" | "dir":
                 return self.bullets(tag, math)
             case "dl":
@@ -164,7 +166,7 @@ class HtmlReader:
             case "blockquote":
                 return [Quote(self.blocks(tag, math))]
             case "hr":
-                return [Rule()]
+                return [ThematicBreak()]
             case "summary":
                 return [Paragraph([Styled("strong", self.line(tag, math))])]
             case "figure":
@@ -174,7 +176,7 @@ class HtmlReader:
             return []
         return [Heading(int(tag.name[1]), children, str(tag.get("id") or anchor_of(plain(children))))]
 
-    def hidden(self, tag: Tag) -> list[Any]:
+    def hidden(self, tag: Tag) -> list[Mend]:
         """Nothing of a hidden element is shown; the macros that it defines are known."""
         text = tag.get_text()
         if "\\" in text:
@@ -189,11 +191,11 @@ class HtmlReader:
         return blocks
 
     def bullets(self, tag: Tag, math: bool) -> list[Block]:
-        items: list[Item] = []
+        items: list[ListItem] = []
         for child in tag.children:
             if isinstance(child, Tag) and child.name == "li" and not self.looks.of(child).hidden:
                 value = _number(child, "value") if tag.name == "ol" else None
-                items.append(Item(self.blocks(child, math), value=None if value is None else int(value)))
+                items.append(ListItem(self.blocks(child, math), value=None if value is None else int(value)))
             elif not isinstance(child, Tag) and not (isinstance(child, NavigableString) and child.strip()):
                 continue
             else:
@@ -201,7 +203,7 @@ class HtmlReader:
                 if blocks and items:
                     items[-1].blocks.extend(blocks)
                 elif blocks:
-                    items.append(Item(blocks))
+                    items.append(ListItem(blocks))
         if not items:
             return []
         style = str(tag.get("type", "1"))
@@ -211,16 +213,17 @@ class HtmlReader:
     def definitions(self, tag: Tag, math: bool) -> Definitions:
         items: list[tuple[list[Inline], list[Block]]] = []
         for child in tag.children:
-            name = child.name if isinstance(child, Tag) else ""
-            if name == "dt":
+            if not isinstance(child, Tag):
+                body = flow(self.inline(child, math))
+            elif child.name == "dt":
                 items.append((self.line(child, math), []))
                 continue
-            if name == "div":
+            elif child.name == "div":
                 items += self.definitions(child, math).items
                 continue
-            if name == "dd":
+            elif child.name == "dd":
                 body = self.blocks(child, math)
-            elif name and not self.is_inline(child):
+            elif not self.is_inline(child):
                 body = self.block(child, math)
             else:
                 body = flow(self.inline(child, math))
@@ -236,7 +239,7 @@ class HtmlReader:
         if caption:
             caption.extract()
         blocks = self.blocks(tag, math)
-        if words and len(blocks) == 1 and isinstance(blocks[0], Figure | Grid):
+        if words and len(blocks) == 1 and isinstance(blocks[0], FigureBlock | Grid):
             blocks[0].caption = words
             return blocks
         return [*blocks, *([Paragraph(words)] if words else [])]
@@ -248,7 +251,7 @@ class HtmlReader:
             type_ = str(tag.get("type", ""))
             if "math/tex" in type_:
                 text = tag.get_text()
-                return self.reading.display(text) if "display" in type_ else flow(self.reading.math(text))
+                return flow(self.reading.display(text) if "display" in type_ else self.reading.math(text))
             if _NO_SCRIPT.search(type_) or _FOR_FORMULAS.search(tag.get_text()):
                 return []
         if tag.name == "frameset":
@@ -278,7 +281,7 @@ class HtmlReader:
 
     # -- lines -------------------------------------------------------------------------------------------------
 
-    def inline(self, node: Any, math: bool) -> list[Inline | Display]:
+    def inline(self, node: Any, math: bool) -> Sequence[Inline | Display]:
         """The nodes of one piece of a line."""
         if isinstance(node, _NOT_SHOWN):
             return []
@@ -287,7 +290,7 @@ class HtmlReader:
             return with_math(text, self.reading) if math else [Text(re.sub(r"[ \t\r\n\f]+", " ", text))]
         return self.reading.attempt(lambda: self.inline_tag(node, math))
 
-    def inline_tag(self, tag: Tag, math: bool) -> list[Inline | Display]:
+    def inline_tag(self, tag: Tag, math: bool) -> Sequence[Inline | Display]:
         name, look = tag.name, self.looks.of(tag)
         if look.hidden:
             return self.hidden(tag)
@@ -297,7 +300,7 @@ class HtmlReader:
             return flat(self.block(tag, math))
         math = math and not says_no_math(tag)
         id_ = str(tag.get("id") or (tag.get("name") if name == "a" else "") or "")
-        anchor = [Anchor(id_)] if id_ and self.anchors else []
+        anchor: list[Inline | Display] = [Anchor(id_)] if id_ and self.anchors else []
         match name:
             case "x-math":
                 latex = str(tag["data-latex"])
@@ -311,13 +314,13 @@ class HtmlReader:
             case "br":
                 return [*anchor, Break()]
             case "img" | "image":
-                alt = self.reading.alt(tag.get("alt") or tag.get("title"), "an image in HTML")
+                alt = self.reading.alt(str(tag.get("alt") or tag.get("title") or ""), "an image in HTML")
                 return [*anchor, self.picture_from(str(tag.get("src") or tag.get("data-src") or ""), alt, tag)]
         if name in CODE:
             return [*anchor, Code(visible(tag.get_text()))]
         if name in CONTROLS:
             return [*anchor, *self.control(tag, math)]
-        inside = [part for child in tag.children for part in self.inline(child, math)]
+        inside: list[Inline | Display] = [part for child in tag.children for part in self.inline(child, math)]
         if name == "q":
             inside = [Text("“"), *inside, Text("”")]
         if name == "rt":
@@ -328,13 +331,13 @@ class HtmlReader:
             return [*anchor, Link(str(tag["href"]), _no_display(inside))]
         return [*anchor, *self.dressed(tag, look, inside)]
 
-    def dressed(self, tag: Tag, look: Appearance, inside: list[Any]) -> list[Any]:
+    def dressed(self, tag: Tag, look: Appearance, inside: list[LineNode]) -> list[LineNode] | list[Inline]:
         """The nodes with the emphasis and the colours of their element."""
         wraps: list[Callable[[list[Inline]], Inline]] = []
         styles = [STYLES[tag.name]] if tag.name in STYLES else []
         styles += [s for s, asked in (("strong", look.bold), ("emph", look.italic), ("strike", look.strike)) if asked]
         for style in dict.fromkeys(styles):
-            wraps.append(lambda nodes, style=style: Styled(style, nodes))
+            wraps.append(partial(Styled, style))
         if look.ink or look.ground:
             wraps.append(lambda nodes: Coloured(nodes, look.ink, look.ground))
         if not wraps or not inside:
@@ -344,7 +347,7 @@ class HtmlReader:
             nodes = [wrap(nodes)]
         return nodes
 
-    def control(self, tag: Tag, math: bool) -> list[Inline | Display]:
+    def control(self, tag: Tag, math: bool) -> Sequence[Inline | Display]:
         """What a form's control says, in characters."""
         if not self.reading.mending:
             raise CannotShow(_refusal(tag.name))
@@ -379,13 +382,12 @@ class HtmlReader:
         body = re.sub(
             r"<(defs|style|symbol|metadata)\b.*?</\1>|<[^>]*>", lambda m: m[0][:5] if m[1] is None else "", svg
         )
-        if re.search(r"(width|height)[:=]\s*[\"']?0(px)?\b(?![.\d])", re.match(r"<svg[^>]*>", svg)[0]) or not re.search(
-            r"<(path|rect|circ|line|poly|elli|text|imag|use)|\S", body
-        ):
+        nothing = re.search(r"(width|height)[:=]\s*[\"']?0(px)?\b(?![.\d])", svg.partition(">")[0])
+        if nothing or not re.search(r"<(path|rect|circ|line|poly|elli|text|imag|use)|\S", body):
             return []
         return [pictures.from_bundle("image/svg+xml", svg, str(tag.get("alt") or "Drawing"), look.width)]
 
-    def formula(self, tag: Tag) -> list[Inline | Display]:
+    def formula(self, tag: Tag) -> Sequence[Inline | Display]:
         """MathML: its TeX where it says so, else its characters."""
         source = tag.find("annotation", encoding=re.compile("tex", re.IGNORECASE))
         if source:
@@ -400,7 +402,7 @@ class HtmlReader:
         nodes: list[Inline] = []
         for child in tag.children:
             if isinstance(child, Tag) and not self.is_inline(child):
-                part = flat(self.reading.attempt(lambda child=child: self.block(child, math)))
+                part = flat(self.reading.attempt(partial(self.block, child, math)))
                 nodes += [*([Break()] if nodes and part else []), *part]
             else:
                 nodes += _no_display(self.inline(child, math))
@@ -412,7 +414,7 @@ def _refusal(name: str) -> str:
     return f"HTML with <{name}>, which a page cannot show; give the result another form (table, figure, text)"
 
 
-def _no_display(nodes: list[Inline | Display]) -> list[Inline]:
+def _no_display(nodes: Sequence[Inline | Display]) -> list[Inline]:
     return [Math(node.latex) if isinstance(node, Display) else node for node in nodes]
 
 

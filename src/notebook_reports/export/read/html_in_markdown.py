@@ -111,4 +111,4 @@ def _renderer() -> Any:
     plugins = [import_plugin(name) for name in PLUGINS]
     markdown = Markdown(renderer, MathBlockParser(), MathInlineParser(hard_wrap=False), plugins)
     renderer.register("table", lambda _, text: f"<table>{text}</table>\n")
-    return lambda text: re.sub(r"(?<=<pre)\s", " ", markdown(text))
+    return lambda text: re.sub(r"(?<=<pre)\s", " ", str(markdown(text)))

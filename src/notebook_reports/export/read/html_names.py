@@ -65,7 +65,7 @@ def is_no_tag(raw: str) -> bool:
     (True, False, False)
     """
     found = _TAG.match(raw)
-    return bool(found) and found[2].lower() not in NAMES | _INSIDE_PICTURES
+    return found is not None and found[2].lower() not in NAMES | _INSIDE_PICTURES
 
 
 def with_text_for_no_tags(source: str) -> str:

@@ -1,15 +1,16 @@
 """Tables in HTML: their head, their spans, the looks of their cells."""
 
 import re
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 from bs4 import BeautifulSoup, NavigableString, Tag
 
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Block, Cell, Inline, Mend, Styled
+from notebook_reports.export.model import Block, Cell, Display, Inline, Mend, Styled
 from notebook_reports.export.read.css import Looks
 from notebook_reports.export.read.reading import Reading, flow
-from notebook_reports.export.read.tables import MAX_ROWS, align_numbers, place
+from notebook_reports.export.read.tables import MAX_ROWS, align_numbers, grid_of
 
 
 class CellReader(Protocol):
@@ -18,9 +19,9 @@ class CellReader(Protocol):
     reading: Reading
     looks: Looks
 
-    def blocks(self, parent: Tag, math: bool) -> list[Block]: ...
+    def blocks(self, parent: Tag, math: bool = True) -> list[Block]: ...
     def line(self, tag: Tag, math: bool) -> list[Inline]: ...
-    def inline(self, node: Any, math: bool) -> list[Inline]: ...
+    def inline(self, node: Any, math: bool) -> Sequence[Inline | Display]: ...
     def block(self, node: Any, math: bool) -> list[Block] | None: ...
     def is_inline(self, node: Any) -> bool: ...
 
@@ -35,14 +36,15 @@ def read(reader: CellReader, tag: Tag, math: bool) -> list[Block]:
     if tag.find("table") or (reader.reading.mending and _arranges(tag)):
         if not reader.reading.mending:
             raise CannotShow("an HTML table inside a table cell; show the tables one after the other")
-        cells = [c for c in tag.find_all(["th", "td", "caption"]) if c.find_parent("table") is tag]
-        seen = [cell for cell in cells if not reader.looks.of(cell).hidden]
+        inside = [c for c in tag.find_all(["th", "td", "caption"]) if c.find_parent("table") is tag]
+        seen = [cell for cell in inside if not reader.looks.of(cell).hidden]
         return [*strays, *(block for cell in seen for block in reader.blocks(cell, math))]
     caption = tag.find("caption")
     sections: dict[str, list[Tag]] = {"thead": [], "tbody": [], "tfoot": []}
     for row in [row for row in tag.find_all("tr") if row.find_parent("table") is tag]:
         if not reader.looks.of(row).hidden:
-            sections[row.parent.name if row.parent.name in sections else "tbody"].append(row)
+            section = row.parent.name if row.parent else ""
+            sections[section if section in sections else "tbody"].append(row)
     head = sections["thead"]
     rows = head + sections["tbody"] + sections["tfoot"]
     if not head:
@@ -60,7 +62,7 @@ def read(reader: CellReader, tag: Tag, math: bool) -> list[Block]:
     ]
     if not any(cells):
         return strays
-    grid = place(cells, min(len(head), len(rows)))
+    grid = grid_of(cells, min(len(head), len(rows)))
     align_numbers(grid)
     grid.caption = reader.line(caption, math) if caption and not reader.looks.of(caption).hidden else []
     return [*strays, grid, *after]
@@ -73,12 +75,12 @@ def _strays(reader: CellReader, tag: Tag, math: bool) -> list[Block]:
     for part in [tag, *own]:
         if part is not tag and tag not in part.parents:
             continue  # it was inside of something stray
-        row = None
+        row: Tag | None = None
         for child in list(part.children):
             name = child.name if isinstance(child, Tag) else ""
             if name in ("td", "th") and part.name != "tr":
                 if row is None:
-                    row = BeautifulSoup("<tr></tr>", "html.parser").tr
+                    row = BeautifulSoup("", "html.parser").new_tag("tr")
                     child.insert_before(row)
                 row.append(child.extract())
                 continue
@@ -100,12 +102,12 @@ def _arranges(tag: Tag) -> bool:
 
 
 def _cell(reader: CellReader, tag: Tag, math: bool) -> Cell:
-    spans = {key: _span(tag, key) for key in ("colspan", "rowspan")}
     look = reader.looks.of(tag)
     children = reader.line(tag, math)
     for style, asked in (("strong", look.bold and tag.name != "th"), ("emph", look.italic), ("strike", look.strike)):
         children = [Styled(style, children)] if asked and children else children
-    return Cell(children, align=look.align, head=tag.name == "th", ink=look.ink, ground=look.ground, **spans)
+    columns, rows = _span(tag, "colspan"), _span(tag, "rowspan")
+    return Cell(children, 0, 0, columns, rows, look.align, tag.name == "th", ink=look.ink, ground=look.ground)
 
 
 def _span(tag: Tag, key: str) -> int:

@@ -6,7 +6,7 @@ Drawings are taken out before, as they stand: a parser of HTML would lose the le
 import re
 import warnings
 
-from bs4 import BeautifulSoup, MarkupResemblesLocatorWarning, Tag
+from bs4 import BeautifulSoup, MarkupResemblesLocatorWarning, PageElement, Tag
 
 from notebook_reports.export.read.html_names import with_text_for_no_tags
 
@@ -66,7 +66,7 @@ def _end_what_ends(tree: BeautifulSoup) -> None:
             for child in list(tag.children):
                 if isinstance(child, Tag) and child.name in ending:
                     following = [child, *child.next_siblings]
-                    place = tag
+                    place: PageElement = tag
                     for node in following:
                         place.insert_after(node.extract())
                         place = node

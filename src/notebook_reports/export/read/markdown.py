@@ -1,8 +1,9 @@
 """Markdown cells, through nbconvert's own mathematics-aware mistune parsers, into a report's blocks."""
 
-import functools
 import html
 import re
+from collections.abc import Sequence
+from functools import cache, partial
 from typing import Any
 
 from notebook_reports.export.errors import CannotShow
@@ -15,20 +16,20 @@ from notebook_reports.export.model import (
     Code,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Heading,
     Inline,
-    Item,
     Link,
-    Listing,
+    ListItem,
     Math,
     Mend,
     Note,
     Paragraph,
     Quote,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
     plain,
 )
 from notebook_reports.export.read import pictures
@@ -40,7 +41,7 @@ from notebook_reports.export.read.html_names import CODE, STYLES, THROUGH, is_no
 from notebook_reports.export.read.html_tree import tree_of
 from notebook_reports.export.read.pipe_tables import with_whole_tables
 from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
-from notebook_reports.export.read.tables import align_numbers, place
+from notebook_reports.export.read.tables import align_numbers, grid_of
 from notebook_reports.export.read.terminal import visible
 
 PLUGINS = ("strikethrough", "table", "url", "task_lists", "def_list", "footnotes")
@@ -48,7 +49,7 @@ _EMPHASIS = {"emphasis": "emph", "strong": "strong", "strikethrough": "strike"}
 _TABLE_RULE = re.compile(r"^ {0,3}\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)+\|?\s*$", re.MULTILINE)
 
 
-@functools.cache
+@cache
 def _parser() -> Any:
     from mistune import Markdown, import_plugin
     from nbconvert.filters.markdown_mistune import MathBlockParser, MathInlineParser
@@ -87,7 +88,7 @@ class _Cell:
     def blocks(self, tokens: list[dict[str, Any]]) -> list[Block]:
         blocks: list[Block] = []
         for token in tokens:
-            blocks.extend(self.reading.attempt(lambda token=token: self.block(token), _written(token)))
+            blocks.extend(self.reading.attempt(partial(self.block, token), _written(token)))
         return blocks
 
     def block(self, token: dict[str, Any]) -> list[Block]:
@@ -104,7 +105,7 @@ class _Cell:
                 return flow(nodes)
             case "block_code":
                 info = (token.get("attrs") or {}).get("info") or ""
-                return [Listing(visible(token["raw"].expandtabs(4)).rstrip("\n"), "code", info.split(" ")[0])]
+                return [Verbatim(visible(token["raw"].expandtabs(4)).rstrip("\n"), "code", info.split(" ")[0])]
             case "block_quote":
                 return [Quote(self.blocks(token["children"]))]
             case "list":
@@ -112,7 +113,7 @@ class _Cell:
                 start = token["attrs"].get("start", 1)
                 return [Bullets(items, token["attrs"]["ordered"], start, token["tight"])]
             case "thematic_break":
-                return [Rule()]
+                return [ThematicBreak()]
             case "table":
                 return [self.table(token)]
             case "def_list":
@@ -121,8 +122,8 @@ class _Cell:
                 return read_html(token["raw"], self.reading)
         raise CannotShow(f"Markdown of the kind {token['type']}, which a report cannot show")
 
-    def item(self, token: dict[str, Any]) -> Item:
-        return Item(self.blocks(token["children"]), (token.get("attrs") or {}).get("checked"))
+    def item(self, token: dict[str, Any]) -> ListItem:
+        return ListItem(self.blocks(token["children"]), (token.get("attrs") or {}).get("checked"))
 
     def definitions(self, token: dict[str, Any]) -> Definitions:
         items: list[tuple[list[Inline], list[Block]]] = []
@@ -137,7 +138,7 @@ class _Cell:
         head, *body = token["children"]
         rows = [head["children"], *(row["children"] for part in body for row in part["children"])]
         cells = [[self.cell(c) for c in row] for row in rows]
-        grid = place(cells, 1)
+        grid = grid_of(cells, 1)
         align_numbers(grid)
         return grid
 
@@ -163,7 +164,7 @@ class _Cell:
         stack: list[tuple[str, str, list[Inline | Display]]] = [("", "", [])]
         for token in tokens:
             if token["type"] != "inline_html":
-                stack[-1][2].extend(self.reading.attempt(lambda token=token: self.node(token), token.get("raw", "")))
+                stack[-1][2].extend(self.reading.attempt(partial(self.node, token), token.get("raw", "")))
                 continue
             raw = token["raw"]
             if is_no_tag(raw):
@@ -195,6 +196,7 @@ class _Cell:
         """What stands between two tags, as the first asks for it."""
         tree, _ = tree_of(raw)
         tag, looks = tree.find(), Looks(tree)
+        assert tag is not None, "the text of a tag holds a tag"
         look = looks.of(tag)
         if look.hidden:
             return []
@@ -210,7 +212,7 @@ class _Cell:
             return [*before, *HtmlReader(self.reading, looks, [], True).dressed(tag, look, children)]
         raise CannotShow(f"HTML {raw}, which a page cannot show; write it in Markdown")
 
-    def node(self, token: dict[str, Any]) -> list[Inline | Display]:
+    def node(self, token: dict[str, Any]) -> Sequence[Inline | Display]:
         kind = token["type"]
         match kind:
             case "text":
@@ -271,7 +273,7 @@ def _line_of(block: Block, raw: str) -> list[Inline]:
     match block:
         case Mend():
             return [block]
-        case Figure(picture):
+        case FigureBlock(picture):
             return [picture]
         case Paragraph(children):
             return children

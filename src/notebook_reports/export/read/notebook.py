@@ -13,12 +13,12 @@ from notebook_reports.export.model import (
     Anchor,
     Block,
     Display,
-    Figure,
+    FigureBlock,
     Folded,
     Grid,
     Heading,
+    Inline,
     Link,
-    Listing,
     Mend,
     Note,
     Paragraph,
@@ -26,6 +26,7 @@ from notebook_reports.export.model import (
     Report,
     ReportCell,
     Text,
+    Verbatim,
     plain,
     rewrite,
     walk,
@@ -84,7 +85,7 @@ def read(
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
         cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
     first = _take_title(cells)
-    words = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
+    words: list[Inline] = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
     words = words_only(words)
     report = Report(name, words, first.anchor if first else "", cells, document, chapter, language, author)
     report.contents = bool(notebook.get("metadata", {}).get("loopbook", {}).get("contents", True))
@@ -137,7 +138,7 @@ def _cell(cell: Any, reading: Reading, language: str, leave_out: frozenset[str] 
             )
             if source.strip() and not removed:
                 text = visible(source.expandtabs(4)).strip("\n")
-                blocks.append(Listing(text, "input", language, bool(tags & FOLDED_INPUT)))
+                blocks.append(Verbatim(text, "input", language, bool(tags & FOLDED_INPUT)))
             if not tags & NO_OUTPUT and "output" not in leave_out:
                 shown = read_outputs(cell.get("outputs") or (), reading)
                 blocks += [Folded("Output", shown)] if shown and tags & FOLDED_OUTPUT else shown
@@ -157,9 +158,9 @@ def _raw(source: str, metadata: Any, reading: Reading) -> list[Block]:
     if mime == "text/html":
         return read_html(source, reading)
     if mime == "text/latex" and not reading.mending:
-        return reading.display(source)
+        return [*reading.display(source)]
     if mime == "text/plain" or reading.mending:
-        return [Listing(visible(source.expandtabs(4)).strip("\n"))] if source.strip() else []
+        return [Verbatim(visible(source.expandtabs(4)).strip("\n"))] if source.strip() else []
     raise CannotShow(f"a raw cell of the kind {mime}; make it Markdown, or plain text")
 
 
@@ -168,7 +169,10 @@ def _take_title(cells: list[ReportCell]) -> Heading | None:
     for cell in cells:
         for i, block in enumerate(cell.blocks):
             if isinstance(block, Heading):
-                return cell.blocks.pop(i) if block.level == 1 else None
+                if block.level != 1:
+                    return None
+                del cell.blocks[i]
+                return block
     return None
 
 
@@ -218,7 +222,7 @@ def number_blocks(cells: list[ReportCell], chapter: str = "") -> None:
     """Number tables and figures that have a caption; in a book with the chapter's number before."""
     counts = {"Table": 0, "Figure": 0}
     for block in walk(cells):
-        if isinstance(block, Grid | Figure) and block.caption:
+        if isinstance(block, Grid | FigureBlock) and block.caption:
             word = "Table" if isinstance(block, Grid) else "Figure"
             counts[word] += 1
             block.number = f"{word} {chapter}{counts[word]}"
@@ -346,10 +350,10 @@ def _beside(folder: Path, path: str) -> bool:
         return False
 
 
-def beside(target: str, name: str, suffix: str) -> str:
+def relative_address(target: str, name: str, suffix: str) -> str:
     """The relative address of another notebook's report.
 
-    >>> beside("double_tank/03_pole_placement#Results", "pid_report/01_terms", ".html")
+    >>> relative_address("double_tank/03_pole_placement#Results", "pid_report/01_terms", ".html")
     '../double_tank/03_pole_placement.html#Results'
     """
     other, _, anchor = target.partition("#")

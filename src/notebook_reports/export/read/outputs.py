@@ -2,13 +2,14 @@
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 from notebook_reports.display import EQUATION_MIME, FIGURE_MIME, TABLE_MIME
 from notebook_reports.export import scripts
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Block, Display, Figure, Listing, Live, Mend
+from notebook_reports.export.model import Block, Display, FigureBlock, Live, Mend, Verbatim
 from notebook_reports.export.read import pictures
 from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.inline_text import read_inline
@@ -23,11 +24,11 @@ MAX_TEXT = 400_000
 Bundle = dict[str, Any]
 
 
-def read_outputs(outputs: list[Any], reading: Reading) -> list[Block]:
+def read_outputs(outputs: Iterable[Any], reading: Reading) -> list[Block]:
     """The blocks of all outputs; what cannot be shown is noted in `reading.problems`."""
     blocks: list[Block] = []
     for output in _merged(outputs):
-        blocks.extend(reading.attempt(lambda output=output: read_output(output, reading)))
+        blocks.extend(reading.attempt(partial(read_output, output, reading)))
     return blocks
 
 
@@ -44,13 +45,13 @@ def read_output(output: Any, reading: Reading) -> list[Block]:
     raise CannotShow(f"an output of the kind {output['output_type']}")
 
 
-def _merged(outputs: list[Any]) -> list[Any]:
+def _merged(outputs: Iterable[Any]) -> list[Any]:
     """Neighbouring pieces of one stream are one."""
     merged: list[Any] = []
     for output in outputs:
         last = merged[-1] if merged else None
-        streams = last and output["output_type"] == "stream" == last["output_type"]
-        if streams and output.get("name") == last.get("name"):
+        streams = last is not None and output["output_type"] == "stream" == last["output_type"]
+        if last and streams and output.get("name") == last.get("name"):
             merged[-1] = {**last, "text": _joined(last.get("text", "")) + _joined(output.get("text", ""))}
         else:
             merged.append(output)
@@ -121,7 +122,7 @@ def _figure(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     picture = _first_picture(data, metadata, reading.alt(told.get("alt"), "the figure"))
     if picture is None:
         raise CannotShow("a figure without its drawing; run the cell again")
-    return [Figure(picture, read_inline(told["caption"]))]
+    return [FigureBlock(picture, read_inline(told["caption"]))]
 
 
 def _equation(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
@@ -135,16 +136,16 @@ def _latex(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
         raise CannotShow("LaTeX that is no formula; give the output an HTML form", "table", "it is LaTeX for a printer")
     alone = text.startswith("$") and text.endswith("$") and "$" not in text.strip("$")
     if alone or (text.startswith(r"\begin") and "$" not in text):
-        return reading.display(text.strip("$").strip())
+        return [*reading.display(text.strip("$").strip())]
     if reading.mending and "$" not in text and re.match(r"\\[a-zA-Z(\[]", text) and "\\(" not in text:
-        return reading.display(text.removeprefix(r"\[").removesuffix(r"\]"))
+        return [*reading.display(text.removeprefix(r"\[").removesuffix(r"\]"))]
     return flow(with_math(text, reading))
 
 
 def _picture(data: Bundle, metadata: Bundle, reading: Reading) -> list[Block]:
     told = next((m["alt"] for m in (metadata, *metadata.values()) if isinstance(m, dict) and m.get("alt")), "")
     picture = _first_picture(data, metadata, reading.alt(told, "a picture"))
-    return [Figure(picture)] if picture else []
+    return [FigureBlock(picture)] if picture else []
 
 
 def _first_picture(data: Bundle, metadata: Bundle, alt: str) -> Any:
@@ -199,13 +200,13 @@ def _listing(text: Any, role: str, reading: Reading) -> list[Block]:
     if not reading.mending:
         _refuse_long(text, MAX_TEXT)
     if len(text) <= MAX_TEXT:
-        return [Listing(text, role)] if text.strip() else []
+        return [Verbatim(text, role)] if text.strip() else []
     head = text[: MAX_TEXT * 3 // 4].rpartition("\n")[0] or text[: MAX_TEXT * 3 // 4]
     tail = text[-MAX_TEXT // 4 :].partition("\n")[2] or text[-MAX_TEXT // 4 :]
     left = text[len(head) : len(text) - len(tail)]
     size = f"{len(left.split()):,} words in {left.count(chr(10)):,} lines"
     told = f"{size} are left out here, of an output of {len(text):,} characters"
-    return [Listing(head, role), Mend("text", told), Listing(tail.strip("\n"), role)]
+    return [Verbatim(head, role), Mend("text", told), Verbatim(tail.strip("\n"), role)]
 
 
 def _refuse_long(text: str, limit: int) -> None:

@@ -1,13 +1,24 @@
 """What the readers of one notebook share: where they are, what they have counted, what they could not show."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
 from notebook_reports.export.errors import CannotShow, Problem
-from notebook_reports.export.model import Block, Break, Display, Figure, Inline, Math, Mend, Paragraph, Picture, Text
+from notebook_reports.export.model import (
+    Block,
+    Break,
+    Display,
+    FigureBlock,
+    Inline,
+    Math,
+    Mend,
+    Paragraph,
+    Picture,
+    Text,
+)
 from notebook_reports.mathematics import MathError, extract_tag
 from notebook_reports.mathematics.macros import Macros
 
@@ -20,6 +31,8 @@ _MATH = re.compile(
     re.DOTALL,
 )
 _ENVIRONMENTS = {"equation", "align", "aligned", "gather", "gathered", "multline", "eqnarray", "split", "displaymath"}
+
+Node = TypeVar("Node", bound=Block | Inline)
 
 
 @dataclass
@@ -47,13 +60,13 @@ class Reading:
     notes: int = 0
     problems: list[Problem] = field(default_factory=list)
 
-    def attempt(self, read: Callable[[], list[Any]], source: str = "") -> list[Any]:
+    def attempt(self, read: Callable[[], Sequence[Node]], source: str = "") -> "list[Node | Mend]":
         """What `read` gives; where that cannot be shown, a `Mend` and the source, or, strictly, a problem and nothing.
 
         One export names every problem of a notebook.
         """
         try:
-            return read()
+            return list(read())
         except CannotShow as error:
             if not self.mending:
                 self.problems.append(Problem(self.cell, str(error)))
@@ -117,7 +130,7 @@ def flow(nodes: Iterable[Inline | Display]) -> list[Block]:
         trim(line)
         solid = [node for node in line if not (isinstance(node, Text) and not node.text.strip())]
         if len(solid) == 1 and isinstance(solid[0], Picture):
-            blocks.append(Figure(solid[0]))
+            blocks.append(FigureBlock(solid[0]))
         elif solid and len(mends := [node for node in solid if isinstance(node, Mend)]) == len(solid):
             blocks.extend(mends)
         elif line:

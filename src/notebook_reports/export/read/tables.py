@@ -36,7 +36,7 @@ def from_data(data: dict[str, Any]) -> Grid:
     return limited(grid)
 
 
-def place(rows: list[list[Cell]], head_rows: int) -> Grid:
+def grid_of(rows: list[list[Cell]], head_rows: int) -> Grid:
     """A grid from rows of cells, as HTML gives them: each goes to the next place that no span covers."""
     taken: set[tuple[int, int]] = set()
     cells = []

@@ -17,14 +17,14 @@ _CLOSING = {")", "]", "}", "\\}", "\\right", "\\end", "\\rbrace", "\\rangle", "\
 _SPACING = {"\\displaystyle", "\\,", "\\;", "\\:", "\\!", "\\ ", "\\middle"}
 
 
-def pieces(latex: str) -> list[str]:
+def formula_pieces(latex: str) -> list[str]:
     r"""Split a formula at the places where a line may end; joined they are the formula again.
 
-    >>> pieces(r"y = a + \left(b + c\right) - d")
+    >>> formula_pieces(r"y = a + \left(b + c\right) - d")
     ['y ', '= a ', '+ \\left(b + c\\right) ', '- d']
-    >>> pieces(r"e^{-a} = -b")
+    >>> formula_pieces(r"e^{-a} = -b")
     ['e^{-a} ', '= -b']
-    >>> pieces(r"a \not= b")
+    >>> formula_pieces(r"a \not= b")
     ['a ', '\\not= b']
     """
     found: list[str] = [""]

@@ -78,7 +78,7 @@ def unbroken(cell: Cell) -> bool:
     return cell.align == "right" or len(plain(cell.children)) <= (VERDICT if cell.mark else SHORT)
 
 
-def words(text: str) -> list[str]:
+def breakable_words(text: str) -> list[str]:
     """The pieces of a text between which a line may end."""
     return _WORDS.split(text)
 
@@ -116,7 +116,7 @@ def _near(estimates: list[tuple[int, Range, str]]) -> tuple[int, ...]:
 def _longest(cell: Cell) -> Range:
     """The widest piece of a cell that may be broken into lines: a word or a formula."""
     texts = plain([node for node in cell.children if not isinstance(node, Math)])
-    pieces = [(width, width) for width in map(_letters, words(texts))]
+    pieces = [(width, width) for width in map(_letters, breakable_words(texts))]
     pieces += [_ems([node]) for node in cell.children if isinstance(node, Math)]
     return SIZE * max(low for low, _ in pieces), SIZE * max(high for _, high in pieces)
 

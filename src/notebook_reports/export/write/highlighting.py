@@ -57,10 +57,10 @@ def runs(code: str, language: str) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def lines(code: str, language: str) -> list[list[tuple[str, str]]]:
+def highlighted_lines(code: str, language: str) -> list[list[tuple[str, str]]]:
     r"""The same, line by line.
 
-    >>> lines("x = 1\n# end", "python")
+    >>> highlighted_lines("x = 1\n# end", "python")
     [[('', 'x = '), ('n', '1')], [('c', '# end')]]
     """
     rows: list[list[tuple[str, str]]] = [[]]

@@ -19,14 +19,13 @@ from notebook_reports.export.model import (
     Coloured,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Folded,
     Grid,
     Heading,
     Inline,
-    Item,
     Link,
-    Listing,
+    ListItem,
     Live,
     Math,
     Mend,
@@ -36,13 +35,14 @@ from notebook_reports.export.model import (
     Quote,
     Report,
     ReportCell,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
     plain,
 )
 from notebook_reports.export.read.css import readable_on
-from notebook_reports.export.read.notebook import beside
+from notebook_reports.export.read.notebook import relative_address
 from notebook_reports.export.read.pictures import MIME
 from notebook_reports.export.write.highlighting import runs
 from notebook_reports.export.write.inside_page import inside_page
@@ -82,7 +82,7 @@ class HtmlWriter:
                 return self.heading(block)
             case Display():
                 return self.display(block)
-            case Listing():
+            case Verbatim():
                 return self.listing(block)
             case Bullets():
                 tag = "ol" if block.ordered else "ul"
@@ -101,11 +101,11 @@ class HtmlWriter:
                 return _fold(escape(words), self.blocks(blocks))
             case Mend():
                 return self.mend(block)
-            case Rule():
+            case ThematicBreak():
                 return "<hr>"
             case Grid():
                 return self.grid(block)
-            case Figure(picture, caption, number):
+            case FigureBlock(picture, caption, number):
                 told = f"<figcaption>{self.caption(number, caption)}</figcaption>" if caption else ""
                 return f'<figure><div class="sheet">{self.picture(picture)}</div>{told}</figure>'
             case Live():
@@ -144,7 +144,7 @@ class HtmlWriter:
         body = f'<div class="scroll" tabindex="0">{as_mathml(block.latex, True)}</div>'
         return f'<div class="formula"{anchor}>{body}{label}</div>'
 
-    def listing(self, block: Listing) -> str:
+    def listing(self, block: Verbatim) -> str:
         cut = ((kind, escape(text, quote=False)) for kind, text in runs(block.text, block.language))
         body = "".join(f'<span class="{kind}">{text}</span>' if kind else text for kind, text in cut)
         told = f' role="group" aria-label="{_ROLES[block.role]}"' if block.role in _ROLES else ""
@@ -154,7 +154,7 @@ class HtmlWriter:
         lines = block.text.count("\n") + 1
         return _fold(f"Code<small>, {lines} line{'s' if lines > 1 else ''}</small>", shown)
 
-    def item(self, item: Item, tight: bool) -> str:
+    def item(self, item: ListItem, tight: bool) -> str:
         checked = " checked" if item.checked else ""
         start = "<li>" if item.value is None else f'<li value="{item.value}">'
         if item.checked is not None:
@@ -194,7 +194,7 @@ class HtmlWriter:
 
     def inline(self, nodes: list[Inline]) -> str:
         """Inline nodes; a formula keeps the punctuation after it on its line."""
-        parts = []
+        parts: list[str] = []
         for i, node in enumerate(nodes):
             shown = self.node(node)
             before = nodes[i - 1] if i else None
@@ -270,7 +270,7 @@ class HtmlWriter:
     def address(self, link: Link) -> str:
         if link.kind == "internal":
             return "#" + link.target
-        return beside(link.target, self.name, ".html") if link.kind == "notebook" else link.target
+        return relative_address(link.target, self.name, ".html") if link.kind == "notebook" else link.target
 
     def footnotes(self) -> str:
         """The footnotes met so far, or nothing."""

@@ -6,26 +6,26 @@ import re
 from collections.abc import Callable, Iterator
 
 from notebook_reports.export.formulas import as_mathml, as_text, as_typst
-from notebook_reports.export.mends import number
+from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import (
     Block,
     Display,
-    Figure,
+    FigureBlock,
     Grid,
     Inline,
-    Listing,
     Math,
     Mend,
     Picture,
     Report,
     ReportCell,
+    Verbatim,
     plain,
     rewrite,
     walk,
 )
 from notebook_reports.export.write.arrangement import Arrangement, to_float
 from notebook_reports.export.write.glyphs import absent_in, name_of, note_absent
-from notebook_reports.export.write.typst import digest
+from notebook_reports.export.write.typst import file_digest
 from notebook_reports.export.write.typst_engine import (
     LANDSCAPE_FROM,
     TooWide,
@@ -90,13 +90,13 @@ def compile_mending(report: Report, write: Callable[[Arrangement], Written]) -> 
                 changed.append(_without(report, error))
             if not any(changed):
                 raise
-            number(report)
+            number_mends(report)
             continue
         floating = to_float(compiled.places, layout.floating)
         named = _name_absent(report)
         if not floating and not named:
             return compiled.pdf
-        number(report)
+        number_mends(report)
         layout = Arrangement(layout.turned, layout.floating | floating)
     raise failed or TypstFailed([])
 
@@ -110,7 +110,7 @@ def _narrowed(report: Report, wide: TooWide, grids: dict[str, Grid]) -> bool:
         return _replace(report, grids[wide.id], split(grids[wide.id], wide.share))
 
     def smaller(node: object) -> list[Block] | None:
-        if not isinstance(node, Math | Display) or node.small or digest(node.latex) != wide.id:
+        if not isinstance(node, Math | Display) or node.small or file_digest(node.latex) != wide.id:
             return None
         if wide.share < SMALLEST:
             return [Mend("formula", "it is too wide for a page", node.latex)]
@@ -170,7 +170,7 @@ def _without_pictures(report: Report, cell: int | None, named: set[str], message
     found = []
 
     def change(node: object) -> list[Block] | None:
-        picture = node.picture if isinstance(node, Figure) else node
+        picture = node.picture if isinstance(node, FigureBlock) else node
         if not isinstance(picture, Picture):
             return None
         found.append(picture)
@@ -189,14 +189,14 @@ def _as_text(report: Report, number_: int, told: str) -> bool:
     for cell in report.cells:
         if cell.number == number_ and not any(isinstance(b, Mend) and b.reason == told for b in cell.blocks):
             words = "\n".join(_texts(cell))
-            cell.blocks = [Mend("cell", told), Listing(words, "output")]
+            cell.blocks = [Mend("cell", told), Verbatim(words, "output")]
             return True
     return False
 
 
 def _texts(cell: ReportCell | list[Inline]) -> Iterator[str]:
     for node in walk(cell):
-        if isinstance(node, Listing):
+        if isinstance(node, Verbatim):
             yield node.text
         elif isinstance(node, Math | Display):
             yield node.latex

@@ -141,8 +141,8 @@ class PdfText:
                 case "clipped":
                     path = []
                 case "drawing" if depth < 12:
-                    number = resources["XObject"].get(found["drawing"].decode())
-                    body = self._objects.get(number or -1, b"")
+                    number = resources["XObject"].get(found["drawing"].decode(), -1)
+                    body = self._objects.get(number, b"")
                     if b"/Subtype/Image" in body:
                         yield Mark(page, *sorted((matrix[5], matrix[3] + matrix[5])))
                     if b"/Subtype/Form" in body:

@@ -29,8 +29,8 @@ def with_known_fonts(svg: bytes) -> bytes:
         return f"{found['key']}{extra}" if found["key"] else f"{found['attr']}{found['quote']}{extra}{found['quote']}"
 
     text = _FAMILY.sub(mend, text)
-    root = re.match(r"<(\w+:)?svg\b[^>]*>", text)
+    root = re.match(r"(<(?:\w+:)?svg\b)[^>]*>", text)
     if root and "font-family" not in root[0]:
-        at = re.match(r"<(\w+:)?svg\b", text).end()
+        at = root.end(1)
         text = f'{text[:at]} font-family="DejaVu Sans"{text[at:]}'
     return text.encode()

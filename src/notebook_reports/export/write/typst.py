@@ -20,14 +20,13 @@ from notebook_reports.export.model import (
     Coloured,
     Definitions,
     Display,
-    Figure,
+    FigureBlock,
     Folded,
     Grid,
     Heading,
     Inline,
-    Item,
     Link,
-    Listing,
+    ListItem,
     Live,
     Math,
     Mend,
@@ -38,27 +37,28 @@ from notebook_reports.export.model import (
     Quote,
     Report,
     ReportCell,
-    Rule,
     Styled,
     Text,
+    ThematicBreak,
+    Verbatim,
     plain,
 )
 from notebook_reports.export.read.css import readable_on
-from notebook_reports.export.read.notebook import beside
+from notebook_reports.export.read.notebook import relative_address
 from notebook_reports.export.read.picture_sizes import pixel_width
 from notebook_reports.export.write.arrangement import AS_IT_COMES, Arrangement
-from notebook_reports.export.write.breaking import pieces as line_ends
+from notebook_reports.export.write.breaking import formula_pieces as line_ends
 from notebook_reports.export.write.column_widths import (
     LINE,
     TEXT_HEIGHT,
     TEXT_WIDTH,
+    breakable_words,
     deciding,
     row_heights,
     unbroken,
-    words,
 )
 from notebook_reports.export.write.glyphs import latex_without_absent, without_absent
-from notebook_reports.export.write.highlighting import lines
+from notebook_reports.export.write.highlighting import highlighted_lines
 from notebook_reports.export.write.svg_fonts import with_known_fonts
 from notebook_reports.export.write.typst_text import (
     LONGEST_ADDRESS,
@@ -67,8 +67,8 @@ from notebook_reports.export.write.typst_text import (
     LONGEST_WORD,
     breakable,
     flowing,
-    literal,
-    pieces,
+    text_pieces,
+    typst_string,
 )
 
 STYLES = ("emph", "strong", "strike", "underline", "sub", "super")
@@ -122,8 +122,9 @@ class TypstWriter:
         """The source of one cell of the notebook, its anchor on its first block."""
         self.cell = cell.number
         first, *rest = (self.block(block) for block in cell.blocks)
-        if rest and isinstance(cell.blocks[0], Listing):
-            first = self.listing(cell.blocks[0], keep=_together(*cell.blocks[:2]))
+        code = cell.blocks[0]
+        if rest and isinstance(code, Verbatim):
+            first = self.listing(code, keep=_together(code, cell.blocks[1]))
         if cell.anchor and (isinstance(cell.blocks[0], Paragraph) or first.startswith("#landscape")):
             first = self.node(Anchor(cell.anchor)) + first
         elif cell.anchor and not isinstance(cell.blocks[0], Heading):
@@ -139,10 +140,10 @@ class TypstWriter:
             case Paragraph(children, leads):
                 return f"#lead[{self.inline(children)}]" if leads else self.inline(children)
             case Heading(level, children, anchor, number):
-                return f"#section({level}, {literal(number)}, {self.label(anchor)})[{self.inline(children)}]"
+                return f"#section({level}, {typst_string(number)}, {self.label(anchor)})[{self.inline(children)}]"
             case Display():
                 return self.display(block)
-            case Listing():
+            case Verbatim():
                 return self.listing(block)
             case Bullets():
                 return self.bullets(block)
@@ -152,41 +153,41 @@ class TypstWriter:
             case Quote(blocks):
                 return f"#quoted[{self.blocks(blocks)}]"
             case Alert(kind, blocks):
-                return f"#alert({literal(kind)})[{self.blocks(blocks)}]"
+                return f"#alert({typst_string(kind)})[{self.blocks(blocks)}]"
             case Folded(_, blocks):
                 return self.blocks(blocks)
             case Mend():
                 return self.mend(block)
-            case Rule():
+            case ThematicBreak():
                 return "#thematic-break()"
             case Grid():
                 return self.grid(block)
-            case Figure():
+            case FigureBlock():
                 return self.figure(block)
             case Live():
                 return self.blocks(block.instead)
         raise TypeError(f"no Typst form for {type(block).__name__}")
 
-    def listing(self, block: Listing, keep: bool = False) -> str:
+    def listing(self, block: Verbatim, keep: bool = False) -> str:
         """Preformatted text, cut where its colours change. keep: it stays on the page of what follows it."""
         kept = ", keep: true" if keep else ""
         text = self.shown(block.text).replace("\u200b", "")
         rows = ""
         if block.language or any(_stuck(line) for line in text.split("\n")):
-            rows = "".join(f"({''.join(runs_of(row))}), " for row in lines(text, block.language))
-        return f"#listing({literal(block.role)}, {literal(text)}, ({rows}){kept})"
+            rows = "".join(f"({''.join(runs_of(row))}), " for row in highlighted_lines(text, block.language))
+        return f"#listing({typst_string(block.role)}, {typst_string(text)}, ({rows}){kept})"
 
     def bullets(self, block: Bullets) -> str:
         items = [f"[{self.item(item, block.tight)}]" for item in block.items]
         tight = "true" if block.tight else "false"
         if not block.ordered:
             return f"#list(tight: {tight}, {', '.join(items)})"
-        style = f", numbering: {literal(block.style + '.')}" if block.style != "1" else ""
+        style = f", numbering: {typst_string(block.style + '.')}" if block.style != "1" else ""
         if any(item.value is not None for item in block.items):
             items = [f"enum.item({n}, {item})" for n, item in zip(block.numbers, items, strict=True)]
         return f"#enum(tight: {tight}, start: {block.start}{style}, {', '.join(items)})"
 
-    def item(self, item: Item, tight: bool) -> str:
+    def item(self, item: ListItem, tight: bool) -> str:
         box = "" if item.checked is None else '#task(true);#" ";' if item.checked else '#task(false);#" ";'
         return box + self.blocks(item.blocks, tight)
 
@@ -206,13 +207,13 @@ class TypstWriter:
                 return f"#{'probe-' if self.probing else ''}{style}[{self.inline(children)}];"
             case Coloured(children, ink, ground):
                 inside = self.inline(children)
-                return inside if self.probing else f"#tinted({literal(ink)}, {literal(ground)})[{inside}];"
+                return inside if self.probing else f"#tinted({typst_string(ink)}, {typst_string(ground)})[{inside}];"
             case Mend():
                 return self.mend_in_line(node)
             case Link():
                 return self.link(node)
             case PageNumber(target):
-                return f"#page-of(label({literal(target)}));"
+                return f"#page-of(label({typst_string(target)}));"
             case Picture():
                 return f"#inline-picture({self.picture(node)});"
             case Break():
@@ -229,24 +230,24 @@ class TypstWriter:
         longest = LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_WORD
         if self.probing:
             return f"#probe-code[{flowing(text, longest, longest)}];"
-        parts = pieces(text, longest, longest)
+        parts = text_pieces(text, longest, longest)
         text = text.replace("\u200b", "")
         if len(parts) <= 1 and not any(boxed for _, boxed in parts):
-            return f"#code({literal(text)});"
-        return f"#code({literal(text)}, shown: [{flowing(text, longest, longest)}]);"
+            return f"#code({typst_string(text)});"
+        return f"#code({typst_string(text)}, shown: [{flowing(text, longest, longest)}]);"
 
     def math(self, node: Math) -> str:
         """A formula inside a line. A long one comes with its pieces, so that it is known whether lines can hold it."""
         latex = latex_without_absent(node.latex) if self.naming else node.latex
         if self.probing:
             return f"#probe(${as_typst(latex, False)}$);"
-        formula = f"{literal(as_text(latex))}, ${as_typst(latex, False)}$"
+        formula = f"{typst_string(as_text(latex))}, ${as_typst(latex, False)}$"
         if node.small:
             return f"#small-m({formula});"
         if len(as_text(latex)) < LONG_FORMULA:
             return f"#m({formula});"
         parts = ", ".join(f"${as_typst(part, False)}$" for part in _lines(latex))
-        return f"#long-m({self.where('a formula inside a line', digest(latex))}, {formula}, ({parts},));"
+        return f"#long-m({self.where('a formula inside a line', file_digest(latex))}, {formula}, ({parts},));"
 
     def shown(self, text: str) -> str:
         """The text with names in place of the characters that no font has, as far as they are known."""
@@ -260,7 +261,7 @@ class TypstWriter:
         address = f"[{self.whole(mend.address)}]" if mend.address else "none"
         words = f"[{self.plain(mend.text)}]" if mend.text.strip() else "none"
         source = "true" if mend.kind in ("formula", "cell") else "false"
-        parts = f"{literal(KINDS[mend.kind])}, [{self.plain(mend.reason)}], {words}, {address}, {source}"
+        parts = f"{typst_string(KINDS[mend.kind])}, [{self.plain(mend.reason)}], {words}, {address}, {source}"
         return f"#mend({told}, {parts})"
 
     def mend_in_line(self, mend: Mend) -> str:
@@ -280,7 +281,7 @@ class TypstWriter:
     def whole(self, address: str) -> str:
         """An address; a short one is not broken into lines, so that it can be found and copied."""
         most = LONGEST_CODE_IN_A_TABLE if self.in_table else LONGEST_ADDRESS
-        return f"#box({literal(self.shown(address))});" if len(address) <= most else self.plain(address)
+        return f"#box({typst_string(self.shown(address))});" if len(address) <= most else self.plain(address)
 
     def sentence(self, mend: Mend) -> str:
         told, address = sentence(mend), f"({mend.address})"
@@ -313,37 +314,36 @@ class TypstWriter:
         if link.kind == "internal":
             return f"#inner({self.label(link.target)})[{inside}];"
         if link.kind == "notebook" and self.chapters is not None:
-            return f"#inner(label({literal(link.target)}))[{inside}];"
-        url = beside(link.target, self.name, ".pdf") if link.kind == "notebook" else link.target
-        return f"#outer({literal(url)})[{inside}];"
+            return f"#inner(label({typst_string(link.target)}))[{inside}];"
+        url = relative_address(link.target, self.name, ".pdf") if link.kind == "notebook" else link.target
+        return f"#outer({typst_string(url)})[{inside}];"
 
     def label(self, anchor: str) -> str:
-        return f"label({literal(self.prefix + anchor)})"
+        return f"label({typst_string(self.prefix + anchor)})"
 
     def display(self, block: Display) -> str:
         latex = latex_without_absent(block.latex) if self.naming else block.latex
         parts = _lines(latex)
-        whole = f"({literal(as_text(latex))}, ${as_typst(latex, True)}$)"
+        whole = f"({typst_string(as_text(latex))}, ${as_typst(latex, True)}$)"
         broken = ""
         if len(parts) > 1:
-            broken = "".join(f"({literal(as_text(p))}, ${as_typst(p, True)}$), " for p in parts)
-        label = literal(f"({block.label})") if block.label else "none"
+            broken = "".join(f"({typst_string(as_text(p))}, ${as_typst(p, True)}$), " for p in parts)
+        label = typst_string(f"({block.label})") if block.label else "none"
         anchor = self.label(block.anchor) if block.anchor else "none"
         small = ", small: true" if block.small else ""
-        return (
-            f"#formula({self.where('a formula', digest(block.latex))}, {whole}, ({broken}), {label}, {anchor}{small})"
-        )
+        where = self.where("a formula", file_digest(block.latex))
+        return f"#formula({where}, {whole}, ({broken}), {label}, {anchor}{small})"
 
-    def figure(self, figure: Figure) -> str:
+    def figure(self, figure: FigureBlock) -> str:
         """A picture on its own lines; one with a caption may float."""
         picture = self.picture(figure.picture)
         if not figure.caption:
-            return f"#drawing({picture}, none, {literal(figure.number)})"
+            return f"#drawing({picture}, none, {typst_string(figure.number)})"
         self.figures += 1
-        id = f"{self.name} {self.figures} {digest(picture)}"
+        id = f"{self.name} {self.figures} {file_digest(picture)}"
         floats = ", floats: true" if id in self.layout.floating else ""
-        told = f"[{self.inline(figure.caption)}], {literal(figure.number)}"
-        return f"#drawing({picture}, {told}, id: {literal(id)}{floats})"
+        told = f"[{self.inline(figure.caption)}], {typst_string(figure.number)}"
+        return f"#drawing({picture}, {told}, id: {typst_string(id)}{floats})"
 
     def grid(self, grid: Grid) -> str:
         self.in_table = True
@@ -352,15 +352,15 @@ class TypstWriter:
         caption = f"[{self.inline(grid.caption)}]" if grid.caption else "none"
         notes = "".join(f"[{self.inline(note)}], " for note in grid.notes)
         self.tables += 1
-        id = f"{self.name} {self.tables} {digest(measured)}"
+        id = f"{self.name} {self.tables} {file_digest(measured)}"
         self.grids[id] = grid
-        where = literal(f"{self.cell}|{grid.number or 'a table'}|{id}")
+        where = typst_string(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.rows}, {grid.head_rows}"
         rows = row_heights(grid)
         short = "true" if grid.rows <= 12 and sum(rows) < BREAKABLE_FROM else "false"
         whole = "true" if max(rows, default=0) < TALLEST_ROW else "false"
         body = f"(\n{cells},\n), {measured}, short: {short}, whole: {whole}"
-        table = f"#data-table({where}, {size}, {caption}, {literal(grid.number)}, ({notes}), {body})"
+        table = f"#data-table({where}, {size}, {caption}, {typst_string(grid.number)}, ({notes}), {body})"
         return f"#landscape[{table}]" if id in self.layout.turned else table
 
     def measured(self, grid: Grid) -> str:
@@ -381,10 +381,10 @@ class TypstWriter:
         return f"({', '.join(columns)},), ({wide})"
 
     def probe(self, cell: Cell) -> str:
-        pad = f"#{literal(cell.pad)};" if cell.pad else ""
+        pad = f"#{typst_string(cell.pad)};" if cell.pad else ""
         body = f"[{self.inline(cell.children)}{pad}]"
         if cell.mark:
-            return f"marked({literal(cell.mark)}, {body})"
+            return f"marked({typst_string(cell.mark)}, {body})"
         return f"probe-strong({body})" if cell.head else body
 
     def table_cell(self, cell: Cell) -> str:
@@ -392,27 +392,27 @@ class TypstWriter:
         if cell.colspan > 1 or cell.rowspan > 1:
             optional += f", colspan: {cell.colspan}, rowspan: {cell.rowspan}"
         if cell.mark:
-            optional += f", mark: {literal(cell.mark)}"
+            optional += f", mark: {typst_string(cell.mark)}"
         if cell.ink or cell.ground:
             ink = cell.ink or readable_on(cell.ground)
-            optional += f", ink: rgb({literal(ink)})"
+            optional += f", ink: rgb({typst_string(ink)})"
         if cell.ground:
-            optional += f", ground: rgb({literal(cell.ground)})"
+            optional += f", ground: rgb({typst_string(cell.ground)})"
         head = "true" if cell.head else "false"
         optional += ", again: true" if cell.again else ""
-        body = self.inline(cell.children) + (f"#hide({literal(cell.pad)});" if cell.pad else "")
+        body = self.inline(cell.children) + (f"#hide({typst_string(cell.pad)});" if cell.pad else "")
         return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
 
     def _solid(self, cell: Cell) -> str:
         """The pieces of a cell that no line end divides, the longest word and each formula."""
         nodes = cell.children
         text = self.shown(plain([n for n in nodes if not isinstance(n, Math | Code)]))
-        longest = max(words(breakable(text)), key=len)
-        parts = [f"[#{literal(longest)};]"] if longest else []
+        longest = max(breakable_words(breakable(text)), key=len)
+        parts = [f"[#{typst_string(longest)};]"] if longest else []
         for node in nodes:
             if isinstance(node, Code):
                 code = breakable(self.shown(node.text), LONGEST_CODE_IN_A_TABLE)
-                parts.append(f"[{self.node(Code(max(words(code), key=len)))}]")
+                parts.append(f"[{self.node(Code(max(breakable_words(code), key=len)))}]")
             elif isinstance(node, Math):
                 short = len(as_text(node.latex)) < LONG_FORMULA
                 parts += [
@@ -431,31 +431,31 @@ class TypstWriter:
         wide = "none" if width is None else f"{min(width * 0.75, TEXT_WIDTH):g}pt"
         wide = f"{picture.share * 100:g}%" if picture.share else wide
         high = "none" if height is None else f"{min(height * 0.75, TEXT_HEIGHT):g}pt"
-        return f"{literal(file)}, {literal(picture.alt)}, {wide}, {high}"
+        return f"{typst_string(file)}, {typst_string(picture.alt)}, {wide}, {high}"
 
     def drawing(self, svg: bytes) -> bytes:
         """The drawing with fonts we have and without characters that these have not."""
         return with_known_fonts(without_absent(svg.decode(), "□").encode() if self.naming else svg)
 
     def where(self, what: str, id: str) -> str:
-        return literal(f"{self.cell}|{what}|{id}")
+        return typst_string(f"{self.cell}|{what}|{id}")
 
 
-def digest(text: str) -> str:
+def file_digest(text: str) -> str:
     """What a piece of a report is called between the engine and us: the same for the same content."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def _together(code: Listing, output: Block) -> bool:
+def _together(code: Verbatim, output: Block) -> bool:
     """Do code and its output stay on one page? They may part where the two would leave much of a page empty."""
     match output:
         case Display():
             room = 3 * LINE
         case Grid():
             room = sum(row_heights(output)) + 3 * LINE
-        case Listing():
+        case Verbatim():
             room = 2 * LINE
-        case Figure():
+        case FigureBlock():
             return False
         case _:
             room = LINE
@@ -464,7 +464,7 @@ def _together(code: Listing, output: Block) -> bool:
 
 def _stuck(line: str) -> bool:
     """Are there places in a line of a listing that we have to give it to break?"""
-    return len(line) > LONGEST_IN_A_LISTING and len(pieces(line, LONGEST_IN_A_LISTING, LONGEST_IN_A_LISTING)) > 1
+    return len(line) > LONGEST_IN_A_LISTING and len(text_pieces(line, LONGEST_IN_A_LISTING, LONGEST_IN_A_LISTING)) > 1
 
 
 def runs_of(row: list[tuple[str, str]]) -> list[str]:
@@ -473,9 +473,9 @@ def runs_of(row: list[tuple[str, str]]) -> list[str]:
     A run is ``("kind", "text"),``; ``none,`` is a place to break; several runs in a box are ``(box: (…)),``.
     """
     line = "".join(text for _, text in row)
-    parts = pieces(line, LONGEST_IN_A_LISTING, LONGEST_IN_A_LISTING)
+    parts = text_pieces(line, LONGEST_IN_A_LISTING, LONGEST_IN_A_LISTING)
     if len(parts) <= 1 and not any(boxed for _, boxed in parts):
-        return [f"({literal(kind)}, {literal(text)})," for kind, text in row]
+        return [f"({typst_string(kind)}, {typst_string(text)})," for kind, text in row]
     found: list[str] = []
     rest = list(row)
     before = True
@@ -483,7 +483,7 @@ def runs_of(row: list[tuple[str, str]]) -> list[str]:
         runs, left = "", len(piece)
         while left and rest:
             kind, text = rest.pop(0)
-            runs += f"({literal(kind)}, {literal(text[:left])}),"
+            runs += f"({typst_string(kind)}, {typst_string(text[:left])}),"
             if len(text) > left:
                 rest.insert(0, (kind, text[left:]))
             left -= min(left, len(text))

@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from notebook_reports.errors import PressError
 from notebook_reports.export.write.arrangement import Arrangement, Place, to_float
@@ -18,7 +18,7 @@ from notebook_reports.export.write.more_fonts import more_fonts
 from notebook_reports.project import runtime
 from notebook_reports.run.surroundings import EPOCH
 
-STANDARDS = ("a-2a", "ua-1")
+STANDARDS: Final = ("a-2a", "ua-1")
 
 
 @dataclass(frozen=True)
@@ -100,6 +100,7 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> Compiled:
             noted = [note.split("|") for note in json.loads(compiler.query("<noted>", field="value"))]
         except typst.TypstError as error:
             raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
+    assert isinstance(pdf, bytes), "a PDF is one piece"
     wide = [TooWide(int(n[1]), n[2], n[3], int(n[4]) / 100) for n in noted if n[0] == "wide"]
     found = [d for w in warnings for d in _diagnostics(w.diagnostic, w.message)]
     found += [Diagnostic(f"loopbook|{w.cell}|{w.what}|{w.id}|{w.share * 100:.0f}", None) for w in dict.fromkeys(wide)]
@@ -118,9 +119,11 @@ def picture_pdf(svg: bytes) -> bytes:
         (Path(folder) / "main.typ").write_bytes(page)
         try:
             compiler = typst.Compiler(str(Path(folder) / "main.typ"), root=folder, font_paths=fonts())
-            return compiler.compile(timestamp=int(EPOCH))
+            pdf = compiler.compile(timestamp=int(EPOCH))
         except typst.TypstError as error:
             raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
+    assert isinstance(pdf, bytes), "a PDF is one piece"
+    return pdf
 
 
 def _diagnostics(text: str, message: str) -> list[Diagnostic]:

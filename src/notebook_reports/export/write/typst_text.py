@@ -6,10 +6,10 @@ LONGEST_WORD, LONGEST_CODE_IN_A_TABLE, LONGEST_IN_A_LISTING, LONGEST_ADDRESS = 4
 """Characters of a word that is never broken."""
 
 
-def literal(text: str) -> str:
+def typst_string(text: str) -> str:
     r"""A Typst string literal.
 
-    >>> print(literal('a "b" \\ #c'))
+    >>> print(typst_string('a "b" \\ #c'))
     "a \"b\" \\ #c"
     """
     text = text.replace("\\", "\\\\").replace('"', '\\"').replace("\r", "").replace("\n", "\\n").replace("\t", "\\t")
@@ -25,14 +25,14 @@ Piece = tuple[str, bool]
 """Characters, and whether they are put into a box, beside which a line may end whatever the characters are."""
 
 
-def pieces(text: str, longest: int = LONGEST_WORD, stuck: int = LONGEST_WORD) -> list[Piece]:
+def text_pieces(text: str, longest: int = LONGEST_WORD, stuck: int = LONGEST_WORD) -> list[Piece]:
     """Text in pieces between which a line may end, besides the places where the engine ends one by itself.
 
     A line does not end before a closing bracket or a mark such as : ; . , and ! nor after an opening one, even where
     spaces stand there; tokens that all begin so would never be broken. Where more than `stuck` characters stick
     together like that, such tokens stand in boxes. longest: characters of a word that is never broken.
 
-    >>> pieces("a :b", stuck=2)
+    >>> text_pieces("a :b", stuck=2)
     [('a ', False), (':b', True)]
     """
     tokens = _TOKENS.findall(breakable(text, longest))
@@ -90,9 +90,9 @@ def flowing(text: str, longest: int = LONGEST_WORD, stuck: int = LONGEST_WORD) -
     '#"word";'
     """
     code, before = "", True
-    for piece, boxed in pieces(text, longest, stuck):
+    for piece, boxed in text_pieces(text, longest, stuck):
         code += "" if before or boxed else "#brk;"
-        code += f"#box({literal(piece)});" if boxed else f"#{literal(piece)};"
+        code += f"#box({typst_string(piece)});" if boxed else f"#{typst_string(piece)};"
         before = boxed
     return code
 

@@ -2,7 +2,7 @@
 
 from copy import deepcopy
 
-from notebook_reports.export.model import Block, Cell, Grid, Listing, Mend, plain
+from notebook_reports.export.model import Block, Cell, Grid, Mend, Verbatim, plain
 from notebook_reports.export.write.column_widths import extent
 
 COMFORTABLE = 0.75
@@ -77,5 +77,5 @@ def _rows(grid: Grid) -> list[Block]:
     text = "\n".join(" | ".join(row) for row in rows)
     return [
         Mend("table", "its cells are too wide for a page; it stands as text below", remark=True),
-        Listing(text, "output"),
+        Verbatim(text, "output"),
     ]

@@ -150,7 +150,7 @@ def _node(node: n.Node, cls: str, script: bool, spaces: tuple[float, float] = (0
             return f"<mn>{node.text}</mn>"
         case n.Word():
             return _identifier(node.text, upright=True)
-        case n.Text():
+        case n.MathText():
             return f"<mtext{_TEXT.get(node.variant, '')}>{_hard_spaces(node.text)}</mtext>"
         case n.Group() | n.Classed():
             return _row(node.items, script)
@@ -189,7 +189,7 @@ def _node(node: n.Node, cls: str, script: bool, spaces: tuple[float, float] = (0
             if text is not None:
                 return _mo(text, "op", spaces, extra=' movablelimits="true"')
             return _row(node.name, script)
-        case n.Grid():
+        case n.MathArray():
             return _fenced(node.left, _grid(node), node.right) if node.left or node.right else _grid(node)
         case n.Phantom():
             hidden = f"<mphantom>{_row(node.body, script)}</mphantom>"
@@ -300,7 +300,7 @@ def _strokes(kind: str) -> str:
     return ",".join(f"linear-gradient({way},{line})" for way in _STROKES[kind])
 
 
-def _grid(node: n.Grid) -> str:
+def _grid(node: n.MathArray) -> str:
     tagged = any(row.tag for row in node.rows)
     rows = []
     for i, row in enumerate(node.rows):
@@ -319,7 +319,7 @@ def _aligned(align: str) -> str:
     return f"text-align:{align};text-align:-webkit-{align}"
 
 
-def _cell(node: n.Grid, i: int, j: int, row: n.Row) -> str:
+def _cell(node: n.MathArray, i: int, j: int, row: n.Row) -> str:
     """One cell; alignment, gaps and lines as CSS, because MathML Core leaves tables to it."""
     align = {"l": "left", "c": "center", "r": "right"}[node.align[j]]
     left = 0.0 if j == 0 and not node.vlines else node.gap / 2

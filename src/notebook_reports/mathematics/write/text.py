@@ -48,7 +48,7 @@ def _node(node: n.Node) -> str:
     match node:
         case n.Symbol():
             return node.char
-        case n.Number() | n.Word() | n.Text():
+        case n.Number() | n.Word() | n.MathText():
             return node.text
         case n.Group() | n.Classed():
             return _list(node.items)
@@ -64,7 +64,7 @@ def _node(node: n.Node) -> str:
             return f"{index}{_bracketed(node.body)}"
         case n.Fenced():
             body = _list(node.items).strip()
-            if len(node.items) == 1 and isinstance(node.items[0], n.Grid) and body[:1] == "[":
+            if len(node.items) == 1 and isinstance(node.items[0], n.MathArray) and body[:1] == "[":
                 body = body[1:-1]
             return f"{node.left}{body}{node.right}"
         case n.Middle() | n.Big():
@@ -83,7 +83,7 @@ def _node(node: n.Node) -> str:
             return f"{node.char} ({'; '.join(notes)})" if notes else node.char
         case n.Operator():
             return _list(node.name)
-        case n.Grid():
+        case n.MathArray():
             return _grid(node)
         case n.Phantom():
             return ""
@@ -117,7 +117,7 @@ def _is_atom(node: n.Node) -> bool:
     return isinstance(node, n.Symbol | n.Number | n.Word | n.Operator)
 
 
-def _grid(node: n.Grid) -> str:
+def _grid(node: n.MathArray) -> str:
     rows = []
     for row in node.rows:
         separator = " " if node.aligned else ", "

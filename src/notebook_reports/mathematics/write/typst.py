@@ -126,7 +126,7 @@ def _space_after_operator(node: n.Node) -> float | None:
     A growing bar is ordinary in `spacing` and an opening delimiter for Typst; with a script it is the other way round.
     """
     base = node.base if isinstance(node, n.Scripts) else node
-    if not isinstance(base, n.Fenced | n.Grid) or not base.left:
+    if not isinstance(base, n.Fenced | n.MathArray) or not base.left:
         return None
     if base.left in BARS:
         return None if base is not node else THIN
@@ -149,7 +149,7 @@ def _node(node: n.Node, cls: str, style: str) -> str:
             return node.text if node.text.replace(".", "").isdecimal() and "," not in node.text else string(node.text)
         case n.Word():
             return string(node.text)
-        case n.Text():
+        case n.MathText():
             text = string(node.text)
             return f"{node.variant}({text})" if node.variant != "normal" else text
         case n.Group():
@@ -185,7 +185,7 @@ def _node(node: n.Node, cls: str, style: str) -> str:
             return _labelled(f"stretch({node.char}, size: #(100% + 1em))", node, cls)
         case n.Operator():
             return f"op({_list(node.name, style)}, limits: #{'true' if node.limits else 'false'})"
-        case n.Grid():
+        case n.MathArray():
             return _grid(node, style)
         case n.Phantom():
             if node.width and node.height:
@@ -303,7 +303,7 @@ def _delimiter(char: str, cls: str) -> str:
     return _char(char) if char in _NATURAL[cls] else _wrap(_char(char), cls)
 
 
-def _grid(node: n.Grid, style: str) -> str:
+def _grid(node: n.MathArray, style: str) -> str:
     """A `mat` without delimiters inside `lr`; tags stand in a column of their own."""
     mixed = len(set(node.align)) > 1
     align = {"l": "left", "c": "center", "r": "right"}[node.align[0] if node.align and not mixed else "c"]
@@ -320,7 +320,7 @@ def _grid(node: n.Grid, style: str) -> str:
             for j, cell in enumerate(row.cells)
         ]
         if tagged:
-            cells.append(_cell([n.Space(2.0), n.Text(row.tag.text)] if row.tag else [], "l", "display"))
+            cells.append(_cell([n.Space(2.0), n.MathText(row.tag.text)] if row.tag else [], "l", "display"))
         rows.append(", ".join(cells) or '""')
     lines = [
         f"{name}: ({''.join(f'{i}, ' for i in at)})"

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from derivations.algebra.delay_polynomials import Z
-from derivations.pole_placement.diophantine import integrators, place
+from derivations.pole_placement.diophantine import integrators, place_exactly
 from loopbook.documents.double_tank.long_fractions import as_printed, at, read_back, symbolic_number
 from loopbook.documents.open import printed as load
 from notebook_reports.ledger.verdicts import MISPRINT, ROUNDED, Computed, rounds_to, value_verdict
@@ -20,7 +20,7 @@ a1, a2, b3, b4, q = sp.symbols("a_1 a_2 b_3 b_4 q")
 
 
 def ratios(numbers):
-    design = place(1 + a1 / Z + a2 / Z**2, b3 / Z**3 + b4 / Z**4, (1 - q / Z) ** 3, integrators(1))
+    design = place_exactly(1 + a1 / Z + a2 / Z**2, b3 / Z**3 + b4 / Z**4, (1 - q / Z) ** 3, integrators(1))
     found = {}
     for name, value in design.parameters.items():
         terms = sp.Poly(value.subs(numbers), q).terms()

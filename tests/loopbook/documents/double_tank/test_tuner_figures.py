@@ -5,13 +5,14 @@ import math
 import pytest
 
 from loopbook.controllers.pid_forms import PidParallel
-from loopbook.documents.double_tank.tuner_figures import SHOWN, agreeing, displayed, structures
+from loopbook.documents.double_tank.tuner_figures import SHOWN, agreeing, displayed, reached, structures
 from loopbook.documents.open import printed as load
 from loopbook.experiments.data import FrequencyData
 from loopbook.loop.continuous import Loop
 from loopbook.loop.margins import phase_crossovers
 from loopbook.process.transfer_function import Process
 from loopbook.tuning import tune
+from notebook_reports.ledger.verdicts import rounds_to
 
 TANK = Process([1 / 8360], [35, 12, 1], 2)
 
@@ -57,3 +58,9 @@ def test_no_structure_with_the_four_good_cells_of_ziegler_and_nichols_gives_the_
     assert first in fitting
     assert round(first["settling"] - float(odd["settling"]), 2) == 0.06
     assert round(first["overshoot"] - float(odd["overshoot"]), 2) == -0.08
+
+
+def test_readings_that_round_to_the_printed_ones_reach_the_print_and_not_the_next_digit():
+    for overshoot, comes in (("39.6", True), ("39.7", False), ("39.3", False)):
+        found = reached(TANK, 10 ** (95 / 20), "0.402", 100.0, printed("zn") | {"overshoot": overshoot})
+        assert rounds_to(found["overshoot"], overshoot) == comes

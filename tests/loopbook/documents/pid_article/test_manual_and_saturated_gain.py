@@ -31,10 +31,11 @@ def test_on_a_dead_time_loop_more_gain_slows_settling_and_more_derivative_destab
 
 def test_cells_are_judged_by_their_definitions():
     before, after = Behaviour(2.0, 20.0, 10.0), Behaviour(1.8, 10.0, 9.5)
-    judged = {cell: manual.holds(cell, before, after, 1.1) for cell in manual.CELLS}
+    plain = Behaviour(1.9, 15.0, 9.0)
+    judged = {cell: manual.holds(cell, before, after, plain) for cell in manual.CELLS}
     false = {("K", "stability"), ("K", "overshoot")}
     assert {cell for cell, holds in judged.items() if not holds} == false
-    assert not manual.holds(("Td", "settling"), before, Behaviour(2, 20, 8.0), 1.1)
+    assert not manual.holds(("Td", "settling"), before, Behaviour(2, 20, 8.0), plain), "more than the plain change"
 
 
 def test_behaviour_is_that_of_the_exact_metrics():
@@ -47,8 +48,9 @@ def test_behaviour_is_that_of_the_exact_metrics():
 
 def test_an_unstable_change_is_worse_and_not_little():
     gone = Behaviour(*[float("inf")] * 3)
-    assert manual.holds(("K", "stability"), Behaviour(2, 20, 10), gone, 2)
-    assert not manual.holds(("K", "settling"), Behaviour(2, 20, 10), gone, 2)
+    before, plain = Behaviour(2, 20, 10), Behaviour(2, 20, 5)
+    assert manual.holds(("K", "stability"), before, gone, plain)
+    assert not manual.holds(("K", "settling"), before, gone, plain)
     assert manual.behaviour(Loop(THIRD, 2.0)) == gone
     with pytest.raises(ValueError, match="this one is unstable"):
         manual.cells(Loop(THIRD, PidStandard(2.0)), 1.1)
@@ -97,7 +99,7 @@ def test_high_saturated_gain_oscillates_like_a_relay():
     from loopbook.experiments.plant import Plant
 
     cycle = limit_cycle(THIRD, 1000, 1.0, 2 * np.pi)
-    data = relay.estimate(relay.run(Plant(THIRD))).data
+    data = relay.estimate(relay.apply_relay(Plant(THIRD))).data
     assert cycle.at_limit > 0.99
     # the sampled loop switches up to one interval, a 400th of the period, late
     assert cycle.period == pytest.approx(data.T180, rel=0.01)

@@ -29,7 +29,7 @@ def lines(figure, panel=-1):
 
 
 def test_the_tangent_of_a_step_has_its_slope_and_meets_the_levels():
-    found = step.estimate(step.run(Plant(PROCESS)))
+    found = step.estimate(step.apply_step(Plant(PROCESS)))
     drawn = lines(step_figure(found, "a step"))
     (t0, y0), (t1, y1) = drawn["steepest tangent"]
     assert (y1 - y0) / (t1 - t0) == pytest.approx(found.marks["slope"])
@@ -38,14 +38,14 @@ def test_the_tangent_of_a_step_has_its_slope_and_meets_the_levels():
 
 
 def test_the_marks_of_a_double_pulse_lie_on_its_record():
-    found = double_pulse.estimate(double_pulse.run(Plant(PROCESS), 5.0))
+    found = double_pulse.estimate(double_pulse.apply_double_pulse(Plant(PROCESS), 5.0))
     extremes = lines(double_pulse_figure(found, "a double pulse"))["extremes"]
     on_record = np.interp(extremes[:, 0], found.record.time, found.record.y)
     assert extremes[:, 1] == pytest.approx(on_record, abs=1e-3)
 
 
 def test_the_amplitude_of_a_relay_bounds_its_oscillation():
-    found = relay.estimate(relay.run(Plant(PROCESS)))
+    found = relay.estimate(relay.apply_relay(Plant(PROCESS)))
     drawn = lines(relay_figure(found, "a relay"))
     top, bottom = drawn["amplitude"][0, 1], drawn["_"][0, 1]
     late = found.record.y[found.record.time >= found.marks["start"]]

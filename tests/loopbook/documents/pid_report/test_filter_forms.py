@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from loopbook.documents.pid_report.filter_forms import FILTERS, error, pole, response, run, time_constant
+from loopbook.documents.pid_report.filter_forms import FILTERS, error, filtered, pole, response, time_constant
 
 
 @pytest.mark.parametrize(("name", "order"), [("backward (4.9)", 1), ("Tustin", 2), ("exact, straight y", 2)])
@@ -15,13 +15,13 @@ def test_order_of_the_error(name, order):
 
 def test_exact_for_a_straight_line():
     t = np.arange(50) * 0.3
-    assert np.allclose(run("exact, straight y", t, 0.3, 0.8), t - 0.8 * (1 - np.exp(-t / 0.8)))
+    assert np.allclose(filtered("exact, straight y", t, 0.3, 0.8), t - 0.8 * (1 - np.exp(-t / 0.8)))
 
 
 @pytest.mark.parametrize("name", FILTERS)
 def test_every_form_keeps_a_constant(name):
     assert abs(response(name, 1e-9, 0.5, 0.7) - 1) < 1e-8
-    assert abs(run(name, np.ones(200), 0.5, 0.7)[-1] - 1) < 1e-9
+    assert abs(filtered(name, np.ones(200), 0.5, 0.7)[-1] - 1) < 1e-9
 
 
 def test_poles():

@@ -7,9 +7,9 @@ import numpy as np
 
 from loopbook.documents.pid_report.batch.study import Ratios
 from loopbook.loop.continuous import Loop
+from loopbook.loop.process_phase import frequency_at
 from loopbook.plots.curves import COLOURS
 from loopbook.plots.nyquist import nyquist_figure
-from loopbook.process.frequency_response import frequency_at
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo import circle
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from loopbook.controllers.pid_forms import LEFT_OUT
 from loopbook.documents.pid_report.batch.study import MemberStudy, share_within
 from loopbook.experiments.data import StepData
 from loopbook.loop.joint_robustness import joint_M
@@ -42,8 +43,8 @@ def joint_with_filter(studies: Sequence[MemberStudy], divisor: float = 10.0) -> 
             Tf = plain.Td / divisor
             adjusted = rules["amigo-step-pid"](with_filter(s.step, Tf))
             found["M"].append(joint_M(process, plain.pid))
-            found["M filter"].append(joint_M(process, replace(plain.pid, N=None, Tf=Tf)))
-            found["M adjusted"].append(joint_M(process, replace(adjusted.pid, N=None, Tf=Tf)))
+            found["M filter"].append(joint_M(process, replace(plain.pid, N=LEFT_OUT, Tf=Tf)))
+            found["M adjusted"].append(joint_M(process, replace(adjusted.pid, N=LEFT_OUT, Tf=Tf)))
             found["ki"].append(adjusted.ki / plain.ki)
     return {name: np.array(values) for name, values in found.items()}
 
@@ -51,7 +52,7 @@ def joint_with_filter(studies: Sequence[MemberStudy], divisor: float = 10.0) -> 
 def joint_with_optimal_Td(studies: Sequence[MemberStudy]) -> np.ndarray:
     """The joint M with K and Ti of the PID step rule and Td of PID MIGO."""
     pairs = [(s.member.process, s.settings["PID step"].pid, s.settings["PID MIGO"].Td) for s in studies]
-    return np.array([joint_M(process, replace(pid, Td=Td, N=None, Tf=0.0)) for process, pid, Td in pairs])
+    return np.array([joint_M(process, replace(pid, Td=Td, N=LEFT_OUT, Tf=0.0)) for process, pid, Td in pairs])
 
 
 def ziegler_nichols_joint(studies: Sequence[MemberStudy]) -> np.ndarray:

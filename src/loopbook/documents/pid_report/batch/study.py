@@ -14,7 +14,7 @@ from loopbook.documents.pid_report.batch.processes import Member, batch
 from loopbook.experiments import combination, integrating_step, short_pulse, step
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
 from loopbook.experiments.plant import ExperimentError
-from loopbook.process.frequency_response import ultimate
+from loopbook.loop.ultimate_point import ultimate
 from loopbook.tuning import migo
 from loopbook.tuning.registry import RULES as rules
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
@@ -49,7 +49,7 @@ class MemberStudy:
         return self.frequency.K180 / self.member.process.static_gain
 
 
-def study(member: Member, optimum: bool = True) -> MemberStudy:
+def study_process(member: Member, optimum: bool = True) -> MemberStudy:
     """Exact experiments on one process, all AMIGO rules that apply, and both optima (optimum=False leaves them out)."""
     process = member.process
     point = ultimate(process)
@@ -58,12 +58,12 @@ def study(member: Member, optimum: bool = True) -> MemberStudy:
     missing: dict[str, str] = {}
     missed = 0.0
     if member.integrates:
-        data: StepData | IntegratingStepData = integrating_step.exact(process)
+        data: StepData | IntegratingStepData = integrating_step.slope_data(process)
         for action in ("PI", "PID"):
             settings[f"{action} step"] = rules[f"amigo-step-{action.lower()}-integrating"](data)
-        settings["PID combined"] = rules["amigo-combined-pid-integrating"](short_pulse.exact(process))
+        settings["PID combined"] = rules["amigo-combined-pid-integrating"](short_pulse.pulse_data(process))
     else:
-        data = found = step.exact(process)
+        data = found = step.step_data(process)
         settings["PI step"], settings["PID step"] = rules["amigo-step-pi"](found), rules["amigo-step-pid"](found)
         try:
             lags, missed = combination.nearest(found, frequency)
@@ -76,13 +76,13 @@ def study(member: Member, optimum: bool = True) -> MemberStudy:
     return MemberStudy(member, data, frequency, settings, missing, missed)
 
 
-def run(members: Sequence[Member] | None = None, progress: bool = True) -> tuple[MemberStudy, ...]:
+def study_batch(members: Sequence[Member] | None = None, progress: bool = True) -> tuple[MemberStudy, ...]:
     """`study` for the whole batch (or some members), in order, with a progress bar on a terminal."""
     from tqdm import tqdm
 
     members = batch() if members is None else members
     shown = tqdm(members, desc="batch", unit="process", leave=False, disable=None if progress else True)
-    return tuple(study(member) for member in shown)
+    return tuple(study_process(member) for member in shown)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from loopbook.documents.open import printed as load
 from loopbook.documents.pid_report.batch import statements as says
 from loopbook.documents.pid_report.batch.processes import batch, four_lags
 from loopbook.documents.pid_report.batch.robustness import joint
-from loopbook.documents.pid_report.batch.study import run, study
+from loopbook.documents.pid_report.batch.study import study_batch, study_process
 from loopbook.loop.continuous import Loop
 from loopbook.loop.joint_robustness import joint_M
 from loopbook.process.transfer_function import Process
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.long
 
 @pytest.fixture(scope="module")
 def whole():
-    return says.Batch(run(progress=False), load("pid-report").claims.__getitem__)
+    return says.Batch(study_batch(progress=False), load("pid-report").claims.__getitem__)
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +81,7 @@ def test_pid_never_has_less_integral_gain_than_pi(whole):
 def test_rule_over_optimum_by_hand():
     """e^-s/(1+s): K = 0.25 by the PI rule (0.15 + 0.35 - 0.25), over an optimum of 0.3738."""
     member = next(m for m in batch() if m.name == "family 1: T = 1")
-    found = study(member)
+    found = study_process(member)
     assert pytest.approx(0.25) == found.settings["PI step"].K
     assert pytest.approx(0.669, abs=1e-3) == found.settings["PI step"].K / found.settings["PI MIGO"].K
     assert found.tau == pytest.approx(0.5)

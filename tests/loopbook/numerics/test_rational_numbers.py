@@ -7,7 +7,7 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loopbook.numerics.exact import decimal, function, rational
+from loopbook.numerics.rational_numbers import decimal, function, rational
 
 x, y = sp.symbols("x y")
 

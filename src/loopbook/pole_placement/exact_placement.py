@@ -1,6 +1,6 @@
 """A sampled plant, a pole q and the regulator that puts the poles there: its numbers, its recursion, its loop.
 
-Everything comes from one `derivations.pole_placement.diophantine.place`, solved with the plant's exact fractions: the
+Everything comes from one `derivations.pole_placement.diophantine.place_exactly`, with the plant's exact fractions: the
 parameters that are tabulated, the difference equations that run, and the polynomials of the `Rst` whose margins are
 asked for.
 """
@@ -12,10 +12,10 @@ from typing import Any
 
 from derivations.algebra.delay_polynomials import Z, coefficients, difference_equation
 from derivations.pole_placement.diophantine import integrators as fixed
-from derivations.pole_placement.diophantine import place
+from derivations.pole_placement.diophantine import place_exactly
 from loopbook.controllers.rst import Rst, zeros_of
-from loopbook.numerics.exact import decimal, function
-from loopbook.numerics.recursion import recursion, simulate
+from loopbook.numerics.rational_numbers import decimal, function
+from loopbook.numerics.recursion import recursion, run_recursion
 from loopbook.pole_placement.sampled_plant import SampledPlant
 
 
@@ -52,14 +52,14 @@ class PlacedLoop:
         number = Fraction if exact else float
         process = recursion(difference_equation(("y", answers.A), {"u": answers.B}), {}, number)
         regulator = recursion(self.design.regulator_equation(), self.parameters, number)
-        return simulate([process, regulator], {"r": [number(1)] * steps}, steps)
+        return run_recursion([process, regulator], {"r": [number(1)] * steps}, steps)
 
 
 def place_poles(plant: SampledPlant, q: Any, poles: int | None = None, integrators: int = 1) -> PlacedLoop:
     """The regulator that places poles at q and leaves the rest at the origin.
 
     q: 0 <= q < 1, as a decimal or a fraction. poles: how many; default as many as the plant with the integrators has.
-    Raises ValueError for q outside [0, 1) and the errors of `derivations.pole_placement.diophantine.place`.
+    Raises ValueError for q outside [0, 1) and the errors of `derivations.pole_placement.diophantine.place_exactly`.
 
     >>> from loopbook.pole_placement.sampled_plant import sample_two_lags
     >>> loop = place_poles(sample_two_lags(5, 7, Fraction(1, 8360), 2, 1).rounded(), 0.5)
@@ -76,6 +76,6 @@ def place_poles(plant: SampledPlant, q: Any, poles: int | None = None, integrato
         )
     poles = len(plant.a) + integrators if poles is None else poles
     wanted = (1 - Rational(exact.numerator, exact.denominator) / Z) ** poles
-    design = place(plant.A, plant.B, wanted, fixed(integrators))
+    design = place_exactly(plant.A, plant.B, wanted, fixed(integrators))
     names, expressions = zip(*design.parameters.items(), strict=True)
     return PlacedLoop(plant, exact, design, dict(zip(names, function([], list(expressions))(), strict=True)))

@@ -8,10 +8,10 @@ import pytest
 from loopbook.documents.double_tank.pole_tables import MEASURES, parameters, performance, printed_only
 from loopbook.documents.open import printed as load
 from loopbook.loop.sampled import SampledLoop
-from loopbook.pole_placement.exact import place_poles
+from loopbook.pole_placement.exact_placement import place_poles
 from loopbook.pole_placement.sampled_plant import sample_two_lags
 from loopbook.process.transfer_function import Process
-from loopbook.response.step_metrics import sampled
+from loopbook.response.step_metrics import sampled_metrics
 from notebook_reports.ledger.verdicts import rounds_to
 
 DOCUMENT = load("double-tank")
@@ -39,7 +39,7 @@ def test_a_changed_regulator_does_not_give_the_table():
     """One unit more in the fifth digit of d_1 is seen in the fourth decimal."""
     loop = place_poles(PLANT.rounded(), 0.5)
     loop.parameters["d_1"] += 100
-    changed = sampled(loop.step(70)["y"], TIMES)
+    changed = sampled_metrics(loop.step(70)["y"], TIMES)
     assert not rounds_to(changed.settling, DOCUMENT.values["settling-q0.5"].printed)
 
 
