@@ -44,7 +44,8 @@ def _words(notebook, page, form: str) -> dict[str, object]:
     from html import unescape
 
     from notebook_reports.export.words import compare
-    from notebook_reports.export.write.pdf_text import PdfText, in_the_text, outside, text_of
+    from notebook_reports.export.write.page_words import in_the_text, outside, text_of
+    from notebook_reports.export.write.pdf_text import PdfText
 
     if form == "html":
         bare = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from notebook_reports.project.outline import CODE
 from notebook_reports.project.printable import printable, take_any_text
 from notebook_reports.project.project import (
     EnvironmentProblem,
@@ -87,6 +88,8 @@ def main(ctx: click.Context, root: Path | None) -> None:
 @click.option("--force", is_flag=True, help="Run everything, whether it changed or not.")
 @click.option("--accept", is_flag=True, help="Write the ledger's files though a verdict or a printed digit moved.")
 @click.option("--frozen", is_flag=True, help="Fail where the ledger's files would change at all (for CI).")
+@click.option("--code", type=click.Choice(CODE), help="Where the book has its code: in place, at the end of each "
+              "chapter, or nowhere; default: what notebooks/book.toml says.")  # fmt: skip
 @click.option("--timeout", type=Seconds(min=1), default=600.0, show_default=True, metavar="S",
               help="Seconds that one cell may take.")  # fmt: skip
 @click.option("--watch", is_flag=True, help="Build again whenever a file changes, until Ctrl-C.")
@@ -101,6 +104,7 @@ def build(
     force: bool,
     accept: bool,
     frozen: bool,
+    code: str | None,
     timeout: float,
     watch: bool,
 ) -> None:
@@ -112,7 +116,7 @@ def build(
     from notebook_reports.build.job import Wanted
 
     chosen = tuple(dict.fromkeys(f.strip() for f in formats.split(",") if f.strip()))
-    wanted = Wanted(chosen, output=output.resolve() if output else None, force=force, timeout=timeout)
+    wanted = Wanted(chosen, output=output.resolve() if output else None, force=force, timeout=timeout, code=code or "")
     if watch:
         from notebook_reports.build.watch import watch as run_watch
 

@@ -51,7 +51,8 @@ class Table:
 
     columns: head cells, inline text. rows: one sequence of inline texts per row (numbers are formatted by `number`).
     align: one of left, right, center per column; default left for the first column and right for the others.
-    marks: per row "", "good", "note" or "bad"; colours the row's last cell.
+    marks: per row "", "good", "note" or "bad"; colours the row's last cell. groups: so many of the first columns show a
+    text only where it changes, and on paper again at the head of a page.
     Raises ValueError where a row has another length than the head.
     """
 
@@ -62,6 +63,7 @@ class Table:
     notes: Sequence[str] = ()
     marks: Sequence[str] = ()
     extra: dict[str, Any] = field(default_factory=dict)
+    groups: int = 0
 
     def __post_init__(self) -> None:
         cells = [[c if isinstance(c, str) else number(c) for c in row] for row in self.rows]
@@ -78,7 +80,7 @@ class Table:
 
     def data(self) -> dict[str, Any]:
         """The content under `TABLE_MIME`."""
-        return {
+        data = {
             "columns": list(self.columns),
             "rows": self.rows,
             "align": self.align,
@@ -86,6 +88,11 @@ class Table:
             "notes": list(self.notes),
             "marks": list(self.marks),
         }
+        return {**data, "groups": self.groups} if self.groups else data
+
+    def repeats(self, y: int, x: int) -> bool:
+        """Is the text of a cell that of the row above, in a column that shows it once?"""
+        return x < self.groups and y > 0 and list(self.rows[y][: x + 1]) == list(self.rows[y - 1][: x + 1])
 
     def _html(self) -> str:
         def cell(tag: str, text: str, align: str, mark: str = "") -> str:
@@ -97,8 +104,9 @@ class Table:
         for i, row in enumerate(self.rows):
             mark = self.marks[i] if self.marks else ""
             last = len(row) - 1
-            pairs = enumerate(zip(row, self.align, strict=True))
-            cells = [cell("td", text, align, mark if j == last else "") for j, (text, align) in pairs]
+            cells = []
+            for j, (text, align) in enumerate(zip(row, self.align, strict=True)):
+                cells.append(cell("td", "" if self.repeats(i, j) else text, align, mark if j == last else ""))
             body += f"<tr>{''.join(cells)}</tr>"
         notes = "".join(f"<p>{html.escape(n)}</p>" for n in self.notes)
         caption = f"<caption>{html.escape(self.caption)}</caption>" if self.caption else ""

@@ -19,6 +19,7 @@ LONG: dict[str, str] = {
     "notebook_reports/export/model.py": "one model of a report, a class for each node",
     "notebook_reports/export/read/html.py": "one reader, a method for each element",
     "notebook_reports/export/read/notebook.py": "one reader, from cells to the model",
+    "notebook_reports/export/write/html.py": "one writer, a method for each node of the model",
     "notebook_reports/export/write/typst.py": "one writer, a method for each node of the model",
     "notebook_reports/mathematics/parser.py": "one grammar",
     "notebook_reports/mathematics/write/typst.py": "one writer, a method for each node of the grammar",

@@ -8,7 +8,8 @@ import pytest
 
 from notebook_reports.export.exporters.choose import export
 from notebook_reports.export.words import compare
-from notebook_reports.export.write.pdf_text import PdfText, in_the_text, outside, text_of
+from notebook_reports.export.write.page_words import in_the_text, outside, text_of
+from notebook_reports.export.write.pdf_text import PdfText
 from notebook_reports.project.project import project_at
 
 pytestmark = pytest.mark.builds

@@ -50,7 +50,7 @@ def build(
     complete = bool(judged) and len(judged) == len(project.notebooks())
     publishing = pages.publishes(project, complete, wanted.formats)
     up_to_date = not broken and all(j.idle for j in todo) and not accept
-    if up_to_date and not (publishing and (pages.reasons(project) or not provenance.is_of_now(project))):
+    if up_to_date and not (publishing and (pages.reasons(project, wanted.code) or not provenance.is_of_now(project))):
         verdict = remembered(project, judged, f"{complete} {frozen}")
         if verdict or not judged:
             return _finish(project, [], verdict.failures if verdict else [], todo, console, options_of(wanted))
@@ -75,7 +75,7 @@ def build(
                 console.line("the ledger was not checked for completeness: not every notebook ran")
             write_manifest(project)
         if publishing:
-            failures += pages.publish(project, console)
+            failures += pages.publish(project, console, wanted.code)
             provenance.withdraw(project) if failures else provenance.write(project)
     return _finish(project, done, failures, todo, console, options_of(wanted))
 
@@ -83,7 +83,7 @@ def build(
 def options_of(wanted: Wanted) -> Callable[[str], str]:
     """A function that gives a command which repeats a build the options that the build was called with."""
     usual, words = Wanted(), []
-    for name, option in (("timeout", "--timeout"), ("output", "-o")):
+    for name, option in (("timeout", "--timeout"), ("output", "-o"), ("code", "--code")):
         value = getattr(wanted, name)
         if value != getattr(usual, name):
             words += [option, f"{value:g}" if isinstance(value, float) else str(value)]

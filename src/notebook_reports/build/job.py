@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from notebook_reports.build import writing
+from notebook_reports.build.standing import NOWHERE, Standing, standing
 from notebook_reports.build.where import output_paths
 from notebook_reports.build.writing import Exporter
 from notebook_reports.ledger import harvest
@@ -25,13 +26,15 @@ from notebook_reports.run.canonical import canonical, dump, renew_prose
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a build is asked for. output: the folder of the reports, None for the usual. exporter: see `writing`."""
+    """What a build is asked for. output: the folder of the reports, None for the usual. exporter: see `writing`.
+    code: where the book has its code, "" for what book.toml says."""
 
     formats: tuple[str, ...] = ("pdf", "html", "ipynb")
     output: Path | None = None
     force: bool = False
     timeout: float = 600
     exporter: Exporter | None = None
+    code: str = ""
 
 
 @dataclass
@@ -49,6 +52,7 @@ class Job:
     run_because: list[str]
     export_because: dict[str, list[str]]
     keep_older: bool = False
+    stands: Standing = NOWHERE
 
     @property
     def idle(self) -> bool:
@@ -79,18 +83,20 @@ def plan(project: Project, notebook: Notebook, source: Source, parameters: Mappi
     declared = inputs.declared(project, source)
     if parameters or not notebook.own:
         why = ["other parameters"] if parameters else ["not of this project"]
-        return Job(notebook, source, parameters, outputs, None, why, dict.fromkeys(outputs, why))
+        stands = standing(project, notebook, beside=False)
+        return Job(notebook, source, parameters, outputs, None, why, dict.fromkeys(outputs, why), stands=stands)
     found = stamps.look(project, notebook)
     stamp = found.stamp
     now = fingerprint.of_run(project, source, {*(stamp.inputs if stamp else ()), *declared})
     because = [found.damage] if found.damage else fingerprint.differences(stamp.run if stamp else None, now)
     because = ["--force"] if wanted.force else because
-    exports = {} if because or stamp is None else _outdated(project, source, stamp, outputs, wanted)
-    return Job(notebook, source, parameters, outputs, stamp, because, exports)
+    stands = standing(project, notebook, wanted.output is None, wanted.formats)
+    exports = {} if because or stamp is None else _outdated(source, stamp, outputs, wanted, stands)
+    return Job(notebook, source, parameters, outputs, stamp, because, exports, stands=stands)
 
 
 def _outdated(
-    project: Project, source: Source, stamp: stamps.Stamp, outputs: Mapping[str, Path], wanted: Wanted
+    source: Source, stamp: stamps.Stamp, outputs: Mapping[str, Path], wanted: Wanted, stands: Standing
 ) -> dict[str, list[str]]:
     """The formats to be written again, and why: the file is not the one that was written, or it would be another."""
     found: dict[str, list[str]] = {}
@@ -101,7 +107,7 @@ def _outdated(
         elif last is None or hash_now(path) != last["file"]:
             found[format] = [f"{path.name} was changed" if path.exists() else f"{path.name} is not there"]
         else:
-            prints = fingerprint.of_export(source, stamp, format)
+            prints = fingerprint.of_export(source, stamp, format, stands.print(format))
             if why := fingerprint.differences(last["prints"], prints):
                 found[format] = why
     return found
@@ -222,9 +228,9 @@ def _reports(project: Project, job: Job, wanted: Wanted, content: dict, stamp: s
             continue
         stamp.exports.pop(str(path), None)
         told = (job.notebook, job.source.title, wanted.exporter)
-        written = writing.write(path, format, content, *told, keep_older=job.keep_older)
+        written = writing.write(path, format, content, *told, keep_older=job.keep_older, stands=job.stands)
         if isinstance(written, bytes):
-            prints = fingerprint.of_export(job.source, stamp, format)
+            prints = fingerprint.of_export(job.source, stamp, format, job.stands.print(format))
             stamp.exports[str(path)] = {"prints": prints, "file": of_bytes(written)}
         else:
             failures += [replace(failure, repeat=repeat(job)) for failure in written]

@@ -4,6 +4,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
+from notebook_reports.build.standing import NOWHERE, Standing
 from notebook_reports.export.exporters.choose import export
 from notebook_reports.project import atomic
 from notebook_reports.project.failures import Failure
@@ -23,9 +24,10 @@ def write(
     title: str,
     exporter: Exporter | None,
     keep_older: bool = False,
+    stands: Standing = NOWHERE,
 ) -> bytes | list[Failure]:
     """Write one report; its bytes, or the failures, and then no report. exporter: see `reporter`, its default."""
-    report = exporter or reporter()
+    report = exporter or reporter(stands)
     try:
         made = dump(content) if format == "ipynb" else report(content, format, notebook, title)
         atomic.write(path, made)
@@ -47,8 +49,8 @@ def write(
     return made
 
 
-def reporter() -> Exporter:
-    """What writes reports, one at a time; see `export`."""
+def reporter(stands: Standing = NOWHERE) -> Exporter:
+    """What writes reports, one at a time; see `export`. stands: where the notebook stands in the book."""
     import_nbformat()
     import nbformat
 
@@ -60,10 +62,13 @@ def reporter() -> Exporter:
                 name=notebook.id,
                 title=title,
                 document=notebook.folder.replace("_", "-"),
+                chapter=stands.part or notebook.folder.replace("_", " "),
                 assets=notebook.path.parent,
                 root=notebook.root,
                 strict_alt=notebook.own,
                 mode="strict" if notebook.own else "mend",
+                folded=notebook.own,
+                around=stands.around,
             )
 
     return call

@@ -14,14 +14,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from notebook_reports.export.code_cells import INLINE, for_paper, place_code
 from notebook_reports.export.errors import ExportError, Problem
 from notebook_reports.export.exporters.base import as_export_error, problems, support_files
 from notebook_reports.export.model import Link, PageNumber, Report, walk
 from notebook_reports.export.page import LinkedTable, Page, page_name, read_page
 from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.read.notebook import level_headings, number_blocks, read
+from notebook_reports.export.write.arrangement import Arrangement
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
-from notebook_reports.export.write.typst_engine import TypstFailed, compile_turning, too_wide_table
+from notebook_reports.export.write.typst_engine import TypstFailed, compile_settled, too_wide_table
 from notebook_reports.export.write.typst_text import typst_string
 
 __all__ = ["Chapter", "LinkedTable", "Page", "export_book"]
@@ -48,8 +50,8 @@ class Chapter:
 
 @dataclass(frozen=True)
 class _Bound:
-    """A chapter ready to be written. number: "3" or "B". part: the heading of a part that begins here, or ""; about:
-    what stands below it."""
+    """A chapter ready to be written. number: "3" or "B", "" before the first chapter. part: the
+    heading of a part that begins here, or ""; about: what stands below it."""
 
     report: Report
     number: str
@@ -73,8 +75,10 @@ def export_book(
     title: str,
     subtitle: str = "",
     lines: Sequence[str] = (),
+    front: Sequence[Page] = (),
     appendix: Sequence[Page] = (),
     appendix_title: str = "Appendix",
+    code: str = INLINE,
     author: str = "loopbook",
     language: str = "en",
     contents_depth: int = 3,
@@ -82,31 +86,38 @@ def export_book(
 ) -> bytes:
     """One PDF/A-2a and PDF/UA-1 of all chapters. lines: inline text at the foot of the cover.
 
-    contents_depth: levels in the table of contents; parts, where there are any, are the first.
+    front: pages before the first chapter. code: of each chapter in its place ("inline"), at its end ("end") or nowhere
+    ("none"). contents_depth: levels in the table of contents; parts, where there are any, are the first.
     In the book ``notebook:NAME#ANCHOR`` leads to that place; a name or an anchor the book does not have is an error.
     Raises ExportError; ValueError for an empty book or a name twice.
     """
-    bound, anchors, top = _bind(chapters, appendix, appendix_title, language, strict_alt)
+    bound, anchors, top = _bind(chapters, front, appendix, appendix_title, language, strict_alt, code)
     cover = _Cover(title, subtitle, tuple(lines), author, language, contents_depth)
     try:
-        return compile_turning(lambda turned: _source(bound, anchors, top, cover, turned))
+        return compile_settled(lambda layout: _source(bound, anchors, top, cover, layout))
     except TypstFailed as error:
         raise _of_chapter(error) from None
 
 
 def _bind(
-    chapters: Sequence[Chapter], appendix: Sequence[Page], appendix_title: str, language: str, strict_alt: bool
+    chapters: Sequence[Chapter],
+    front: Sequence[Page],
+    appendix: Sequence[Page],
+    appendix_title: str,
+    language: str,
+    strict_alt: bool,
+    code: str,
 ) -> tuple[list[_Bound], dict[str, set[str]], int]:
     """Everything read and numbered, the anchors of each chapter, and the heading level of chapters."""
     if not chapters:
         raise ValueError("a book needs at least one chapter")
-    names = [chapter.name for chapter in chapters] + [page_name(page) for page in appendix]
+    names = [chapter.name for chapter in chapters] + [page_name(page) for page in (*front, *appendix)]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise ValueError(f"a book has each name once; twice here: {', '.join(twice)}")
     parts = any(chapter.part for chapter in chapters)
     top = 2 if parts else 1
-    bound, part = [], ""
+    bound, part = [_Bound(read_page(page, strict_alt), "", "") for page in front], ""
     for number, chapter in enumerate(chapters, start=1):
         report = read(
             chapter.notebook,
@@ -126,8 +137,12 @@ def _bind(
     anchors = {entry.report.name: entry.report.anchors for entry in bound}
     found = []
     for entry in bound:
-        level_headings(entry.report.cells, top + 1, f"{entry.number}.")
-        number_blocks(entry.report.cells, f"{entry.number}.")
+        before = f"{entry.number}." if entry.number else ""
+        level_headings(entry.report.cells, top + 1, before)
+        number_blocks(entry.report.cells, before)
+        if entry.number.isdigit():
+            for_paper(entry.report)
+            place_code(entry.report, code, top + 1)
         found += [(entry.report.name, p) for p in problems(entry.report, "typst") + _dead_links(entry.report, anchors)]
     if found:
         name = found[0][0]
@@ -150,7 +165,7 @@ def _dead_links(report: Report, anchors: dict[str, set[str]]) -> list[Problem]:
 
 
 def _source(
-    bound: list[_Bound], anchors: dict[str, set[str]], top: int, cover: _Cover, turned: frozenset[str]
+    bound: list[_Bound], anchors: dict[str, set[str]], top: int, cover: _Cover, layout: Arrangement
 ) -> tuple[str, dict[str, bytes]]:
     """The Typst source of the book and the files beside it; a comment names each chapter for `_of_chapter`."""
     lines = "".join(f"[{TypstWriter().inline(read_inline(line))}], " for line in cover.lines)
@@ -161,7 +176,7 @@ def _source(
     roman = 0
     for entry in bound:
         report = entry.report
-        writer = TypstWriter(report.name, f"{report.name}#", anchors, turned)
+        writer = TypstWriter(report.name, f"{report.name}#", anchors, layout)
         pieces.append(f"// chapter {report.name}\n// cell 0")
         if entry.part:
             roman += 1
@@ -170,7 +185,8 @@ def _source(
             pieces.append(f"#part({typst_string(number)}{about})[#{typst_string(entry.part)};]")
         also = [writer.label(report.title_anchor)] if report.title_anchor else []
         labels = ", ".join([f"label({typst_string(report.name)})", *also])
-        pieces.append(f"#chapter({top}, {typst_string(entry.number)}, ({labels},))[{writer.inline(report.title)}]")
+        level = top if entry.number else 1
+        pieces.append(f"#chapter({level}, {typst_string(entry.number)}, ({labels},))[{writer.inline(report.title)}]")
         pieces += [f"// cell {cell.number}\n{writer.report_cell(cell)}\n" for cell in report.cells if cell.blocks]
         files |= writer.files
     return "\n".join(pieces) + "\n", files

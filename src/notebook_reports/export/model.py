@@ -132,7 +132,10 @@ class Heading:
 
 @dataclass
 class Paragraph:
+    """leads: it introduces what follows, and stays on the page of that."""
+
     children: list[Inline]
+    leads: bool = False
 
 
 @dataclass
@@ -147,11 +150,13 @@ class Display:
 
 @dataclass
 class Verbatim:
-    """Preformatted text. role: input, code, output, stderr or error. language: a Pygments name, "" for plain text."""
+    """Preformatted text. role: input, code, output, stderr or error. language: a Pygments name, "" for plain text.
+    folded: to be shown only to who asks; not on paper."""
 
     text: str
     role: str = "code"
     language: str = ""
+    folded: bool = False
 
 
 @dataclass
@@ -202,13 +207,25 @@ class Alert:
 
 
 @dataclass
+class Folded:
+    """What is shown to who asks for it, on a screen; on paper it is there."""
+
+    words: str
+    blocks: list["Block"]
+
+
+@dataclass
 class ThematicBreak:
     """A thematic break."""
 
 
 @dataclass
 class Cell:
-    """One cell of a table at column x, row y of its grid."""
+    """One cell of a table at column x, row y of its grid.
+
+    again: it repeats the cell above, and is seen only where that is not: on another page. pad: what its number lacks
+    behind for the decimal points of its column to stand below each other, "" or such as "0" or ".00".
+    """
 
     children: list[Inline]
     x: int = 0
@@ -220,6 +237,8 @@ class Cell:
     mark: str = ""
     ink: str = ""
     ground: str = ""
+    again: bool = False
+    pad: str = ""
 
 
 @dataclass
@@ -265,6 +284,7 @@ Block = (
     | Definitions
     | Quote
     | Alert
+    | Folded
     | ThematicBreak
     | Grid
     | FigureBlock
@@ -307,6 +327,11 @@ class Report:
     mends: list[tuple[int, Mend]] = field(default_factory=list)
 
     @property
+    def place(self) -> str:
+        """What stands above the title: the chapter of a book, else the document it belongs to."""
+        return self.chapter or self.document
+
+    @property
     def plain_title(self) -> str:
         """The title in characters, for metadata and running heads."""
         return plain(self.title, "text")
@@ -322,7 +347,7 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Alert() | ListItem() | Note():
+        case ReportCell() | Quote() | Alert() | Folded() | ListItem() | Note():
             return node.blocks
         case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children

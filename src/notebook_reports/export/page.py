@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from notebook_reports.export.around import Around, Tools
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.model import Block, Grid, Link, PageNumber, Report, ReportCell, Text
 from notebook_reports.export.read.markdown import read_markdown
@@ -61,18 +62,18 @@ def read_page(page: Page, strict_alt: bool = True) -> Report:
     return report
 
 
-def export_page(page: Page, document: str = "") -> str:
-    """The page as HTML; a link to a notebook leads to its HTML report. document: what stands above the title.
+def export_page(page: Page, place: str = "", around: Around | None = None, tools: Tools | None = None) -> str:
+    """The page as HTML; a link to a notebook leads to its HTML report. place: what stands above the title.
 
-    Raises ExportError.
+    around: the ways to other pages. tools: of this page alone. Raises ExportError.
     """
     from notebook_reports.export.exporters.html import HtmlExporter
 
     report = read_page(page)
-    report.document = document
+    report.chapter = place
     level_headings(report.cells)
     number_blocks(report.cells)
-    return HtmlExporter().render(report)
+    return HtmlExporter().render(report, around, tools=tools)
 
 
 def _content(content: Any, reading: Reading) -> list[Block]:

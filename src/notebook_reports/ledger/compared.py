@@ -46,6 +46,13 @@ class Compared:
         return self.value.reason if self.verdict in (READ, MISPRINT, DIFFERS) else ""
 
     @property
+    def said_in_note(self) -> str:
+        """The reason as a note below the table says it: a quantity of the same name is not named again."""
+        if self.verdict == REPEATED and self.first and self.first.quantity == self.value.quantity:
+            return f"as at {self.first.place}"
+        return self.reason
+
+    @property
     def shown(self) -> list[str]:
         """The computed numbers as they stand beside the print."""
         return [_beside(x, self.value.printed) for x in self.found.numbers]
@@ -69,8 +76,22 @@ def verdict_table(compared: Sequence[Compared], caption: str) -> Table:
     heads = ["quantity", "printed", *_NUMBERS, "unit", "verdict"]
     long = any(" " in cell for line in lines for cell in line[1:6])  # digits in groups: let them wrap
     align = ["left", *["left" if long else "right"] * 5, "left", "left"]
-    notes = [f"{c.value.quantity}: {c.reason}" for c in compared if c.reason]
-    return _filled(heads, align, lines, caption, notes, [MARKS[c.verdict] for c in compared])
+    return _filled(heads, align, lines, caption, _notes(compared), [MARKS[c.verdict] for c in compared])
+
+
+def _notes(compared: Sequence[Compared]) -> list[str]:
+    """The reasons, each once, with what they are of: the quantities, or the verdict where it is of all that have it."""
+    by_reason: dict[str, list[Compared]] = {}
+    for one in compared:
+        if one.reason:
+            by_reason.setdefault(one.said_in_note, []).append(one)
+    notes = []
+    for reason, those in by_reason.items():
+        verdicts = {c.verdict for c in those}
+        all_of_one = len(verdicts) == 1 and sum(c.verdict in verdicts for c in compared) == len(those) > 1
+        names = next(iter(verdicts)) if all_of_one else ", ".join(dict.fromkeys(c.value.quantity for c in those))
+        notes.append(f"{names}: {reason}")
+    return notes
 
 
 def computed_table(compared: Sequence[Compared], caption: str) -> Table:

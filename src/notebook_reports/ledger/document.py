@@ -35,7 +35,8 @@ from typing import Any
 from notebook_reports.display import Table
 from notebook_reports.errors import PressError
 from notebook_reports.formula.read import Symbols, read_formula
-from notebook_reports.ledger import printed_data
+from notebook_reports.ledger import captions, printed_data
+from notebook_reports.ledger.captions import where
 from notebook_reports.ledger.compared import Compared, computed_table, verdict_table
 from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.ledger.verdicts import (
@@ -159,9 +160,11 @@ class Document:
         missing = [c.value.id for c in compared if c.value.kind != "given" and all(x is None for x in c.found.numbers)]
         if missing and self.compare:
             raise LedgerError(f"{self.id}, {place}: nothing computed for {', '.join(missing)}")
-        caption = caption or f"{self.id}, {place}: printed and computed"
         if not self.compare:
+            caption = caption or f"{where([place])}: computed with other parameters than the document's"
             return self._checked(computed_table(compared, caption), [])
+        verdicts = [c.verdict for c in compared]
+        caption = caption or captions.caption("value", [place], verdicts, VALUE_VERDICTS)
         return self._checked(verdict_table(compared, caption), [c.row() for c in compared])
 
     def _compared(self, value: printed_data.Value, numbers: Mapping[str, Any]) -> Compared:
@@ -197,10 +200,12 @@ class Document:
             fields = {"says": claim.says, "evidence": evidence}
             records.append(LedgerRow("claim", self.id, claim.place, id, verdict, fields))
         heads = ["place", "the document says", "computed", "verdict"]
-        caption = caption or f"{self.id}: statements tested"
+        places = [row[0] for row in rows]
         if not self.compare:
+            caption = caption or f"{where(places)}: computed with other parameters than the document's"
             heads, records, marks = heads[:3], [], []
-        return self._checked(Table(heads, rows, caption, ["left"] * len(heads), (), marks), records)
+        caption = caption or captions.caption("claim", places, [r.verdict for r in records], CLAIM_VERDICTS)
+        return self._checked(_placed(heads, rows, caption, marks), records)
 
     def misprint(self, id: str, proof: Any) -> Checked:
         """Record one misprint with its proof; see `misprints`."""
@@ -257,10 +262,10 @@ class Document:
             }
             records.append(LedgerRow("misprint", self.id, item.place, id, verdict, fields))
         heads = ["place", "printed", "correct", "what is wrong", "misleads", "proof"]
-        caption = caption or f"{self.id}: misprints"
+        caption = caption or captions.of_misprints([row[0] for row in rows], [row[4] == "yes" for row in rows])
         if not self.compare:
             records, marks = [], []
-        return self._checked(Table(heads, rows, caption, ["left"] * 6, (), marks), records)
+        return self._checked(_placed(heads, rows, caption, marks), records)
 
     def _checked(self, view: Table, records: list[LedgerRow]) -> Checked:
         self._records.extend(records)
@@ -280,6 +285,14 @@ class Document:
         ]
         marks = [MARKS[row[1]] for row in rows]
         return Table(["entry", "verdict", "number"], rows, f"{self.id}: the checks of this notebook", (), (), marks)
+
+
+def _placed(heads: list[str], rows: list[list[str]], caption: str, marks: Sequence[str]) -> Table:
+    """A table whose first column is the place: each place once, and no column where the caption names the only one."""
+    if len({row[0] for row in rows}) == 1 and where([rows[0][0]]) in caption:
+        heads, rows = heads[1:], [row[1:] for row in rows]
+        return Table(heads, rows, caption, ["left"] * len(heads), (), marks)
+    return Table(heads, rows, caption, ["left"] * len(heads), (), marks, groups=1)
 
 
 def _proves(item: printed_data.Misprint, derived: Any, same: Same) -> bool:

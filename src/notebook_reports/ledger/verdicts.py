@@ -47,6 +47,26 @@ MARKS = {
 }
 
 
+MEANINGS = {
+    GIVEN: "an input that the document states; nothing else determines it",
+    REPEATED: "printed before, and both prints agree",
+    REPRODUCED: "derived here, and the exact number rounds to the printed digits",
+    ROUNDED: "the document's own rounded numbers give the printed digits, the exact ones do not",
+    QUOTED: "a constant of the literature, not derived here, that agrees with the named source",
+    READ: "read off a graph; the exact number lies within the width of the reading",
+    MISPRINT: "the print is wrong; the corrected digits are shown",
+    DIFFERS: "neither reproduced nor a misprint, for a reason that is given and borne out",
+    UNEXPLAINED: "none of these; the book is then not made",
+    HOLDS: "every part of the statement was found to be true",
+    PARTLY: "a part of it was found to be true; the rest is named",
+    FAILS: "the computation shows that it is not true",
+    PROVED: "a computation shows that the print is wrong and the correction right",
+    NOTED: "a slip of the pen that nothing computes",
+    NOT_CONFIRMED: "the proof failed; the book is then not made",
+}
+"""What each verdict says of a printed value, a statement or a misprint."""
+
+
 class Truth(Protocol):
     """True or false, NumPy's too."""
 

@@ -61,12 +61,12 @@ def of_run(project: Project, source: Source, used: Iterable[Input], since: int |
     return {**prints, **{one.label: one.print(project, since) for one in used}}
 
 
-def of_export(source: Source, stamp: "Stamp", format: str) -> Prints:
-    """What an exported report depends on. stamp: of the run whose results it shows."""
+def of_export(source: Source, stamp: "Stamp", format: str, place: str) -> Prints:
+    """What an exported report depends on. stamp: of the run whose results it shows. place: in the book, as a print."""
     prints = {"its text": source.hash_all(), "its results": stamp.results}
     if format == "ipynb":
         return prints
-    prints |= _press(EXPORTS)
+    prints |= {"its place in the book": place, **_press(EXPORTS)}
     if stamp.mimes:
         prints["its scripts"] = scripts.print_of(stamp.mimes)
     return {**prints, **{name: hash_file(source.path.parent / unquote(name)) for name in stamp.pictures}}

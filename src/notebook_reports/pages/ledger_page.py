@@ -4,11 +4,12 @@ Every record stands in exactly one of the three reports, in a row that leads to 
 They are made here and not in a notebook, because a notebook does not read another one.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from notebook_reports.display import Table
 from notebook_reports.export.page import LinkedTable, Page
+from notebook_reports.ledger.captions import verb_of
 from notebook_reports.ledger.coverage import VERDICTS, Count, by_document, total
 from notebook_reports.ledger.files import NUMBERS, natural
 from notebook_reports.ledger.glossary import Term
@@ -42,15 +43,22 @@ PLAIN_KINDS = {"text", "label", "cross-reference"}
 Content = list[Any]
 
 
-def pages(medium: Medium, counts: Sequence[Count], found: Sequence[LedgerRow], terms: Sequence[Term]) -> list[Page]:
-    """All pages, in the order of the book. terms: of the glossary, none where there is none."""
+def pages(
+    medium: Medium,
+    counts: Sequence[Count],
+    found: Sequence[LedgerRow],
+    terms: Sequence[Term],
+    chapters: Mapping[str, str],
+) -> list[Page]:
+    """All pages, in the order of the book. terms: of the glossary, none where there is none. chapters: what the index
+    calls each notebook."""
     made = [
-        Page(COVERAGE, coverage_page(counts), "coverage"),
         Page(ERRATA, errata_page(medium, found), "errata"),
+        Page(COVERAGE, coverage_page(counts), "coverage"),
         Page(OPEN, open_page(medium, found), "open"),
         Page(REPRODUCED_PAGE, reproduced_page(medium, found), "reproduced"),
         Page(GLOSSARY, glossary_page(terms), "glossary"),
-        Page(INDEX, index_page(medium, found), "index"),
+        Page(INDEX, index_page(medium, found, chapters), "index"),
     ]
     return [page for page in made if page.content]
 
@@ -70,17 +78,6 @@ def sentences(counts: Sequence[Count]) -> list[str]:
     return lines
 
 
-def verb_of(verdict: str, number: int) -> str:
-    """The verdict as the verb of a number.
-
-    >>> verb_of("holds partly", 2), verb_of("fails", 1), verb_of("reproduced", 3)
-    ('hold partly', 'fails', 'reproduced')
-    """
-    words = verdict.split()
-    verb = words[0] in ("holds", "fails", "differs") and number != 1
-    return " ".join([words[0].removesuffix("s"), *words[1:]]) if verb else verdict
-
-
 def coverage_page(counts: Sequence[Count]) -> Content:
     """How many entries each document and each place has, and with which verdicts."""
     if not counts:
@@ -95,11 +92,7 @@ def coverage_page(counts: Sequence[Count]) -> Content:
                 rows.append([NAMES[table], verdict, *map(str, numbers)])
     align = ["left", "left", *["right"] * (len(documents) + 1)]
     content: Content = [
-        "Every number, statement and misprint of the documents that can be checked, with the verdict it got. "
-        "A *given* value is an input of the document; *from rounded inputs* means that the digits follow from the "
-        "document's own rounded numbers and not from exact ones; a *quoted* value agrees with the source that is named "
-        "and is not derived; a *repeated* one agrees with its first print; *read* means read off a graph, within its "
-        "width. A misprint is *proved* by computation, or *noted* where nothing can be computed.",
+        "Every number, statement and misprint of the documents that can be checked, with the verdict it got.",
         Table(heads, rows, "Verdicts by document", align),
     ]
     missing = [c for c in counts if c.unchecked]
@@ -282,8 +275,8 @@ def glossary_page(terms: Sequence[Term]) -> Content:
     return [Table(heads, rows, "Terms of the three documents", ["left"] * 5)]
 
 
-def index_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
-    """From a printed table, figure, equation or section to where the notebooks take it up."""
+def index_page(medium: Medium, found: Iterable[LedgerRow], chapters: Mapping[str, str]) -> Content:
+    """From a printed table, figure, equation or section to where the chapters take it up."""
     content: Content = []
     records = _sorted(found)
     for document in dict.fromkeys(r.document for r in records):
@@ -293,18 +286,14 @@ def index_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
                 key = (record.place, record.notebook, record.section)
                 met[key] = min(record, met.get(key, record), key=lambda r: r.cell)
         ordered = sorted(met.values(), key=lambda r: (natural(r.place), r.notebook, r.cell))
-        rows = [
-            [plain_words(r.place), To(_short_name(r), r.notebook), *_section(medium, r), place_of(r)] for r in ordered
-        ]
-        columns = ["place", "notebook", *(["section"] if medium.paper else []), medium.where]
+        rows = []
+        for r in ordered:
+            chapter = To(chapters.get(r.notebook, r.notebook), r.notebook)
+            rows.append([plain_words(r.place), chapter, *_section(medium, r), place_of(r)])
+        columns = ["place", "chapter", *(["section"] if medium.paper else []), medium.where]
         align = ["left", "left", "left", "right"] if medium.paper else ["left"] * 3
         content += [f"## {document}", medium.table(columns, rows, f"{document}: places", align)]
     return content
-
-
-def _short_name(found: LedgerRow) -> str:
-    """The notebook's name, with its folder where that is not the document's."""
-    return found.notebook.removeprefix(found.document.replace("-", "_") + "/")
 
 
 def _section(medium: Medium, found: LedgerRow) -> list[str]:

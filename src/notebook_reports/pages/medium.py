@@ -87,10 +87,9 @@ class Medium:
                     pages |= {(y, x)} if self.paper else set()
                     shown.append("" if self.paper else cell.section or cell.notebook)
                 else:
-                    repeated = x < once and y > 0 and list(row[: x + 1]) == list(rows[y - 1][: x + 1])
-                    shown.append("" if repeated else cell)
+                    shown.append(cell)
             texts.append(shown)
-        table = Table(columns, texts, caption, align or ["left"] * len(columns), (), marks)
+        table = Table(columns, texts, caption, align or ["left"] * len(columns), (), marks, groups=once)
         return LinkedTable(table, links, frozenset(pages))
 
 

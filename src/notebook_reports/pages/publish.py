@@ -21,6 +21,7 @@ from notebook_reports.memory.manifest import manifest
 from notebook_reports.pages import ledger_page as ledger
 from notebook_reports.pages.links import dead_links
 from notebook_reports.pages.medium import PAPER, SCREEN
+from notebook_reports.pages.preface import preface
 from notebook_reports.project import atomic
 from notebook_reports.project.console import Console, because
 from notebook_reports.project.failures import Failure
@@ -38,34 +39,35 @@ def publishes(project: Project, complete: bool, formats: tuple[str, ...]) -> boo
     return complete and set(FORMATS) <= set(formats) and (project.notebooks_folder / FILE).exists()
 
 
-def reasons(project: Project) -> list[str]:
-    """Why the pages have to be written; none where they are as they should be."""
+def reasons(project: Project, code: str = "") -> list[str]:
+    """Why the pages have to be written; none where they are as they should be. code: see `publish`."""
     stamp = _stamp(project)
     gone = [n for n in NAMES if stamp and hash_now(project.reports / n) != stamp["files"].get(n)]
     if gone:
         return [f"reports/{name} is not as it was written" for name in gone]
-    return fingerprint.differences(stamp["prints"] if stamp else None, _prints(project))
+    return fingerprint.differences(stamp["prints"] if stamp else None, _prints(project, code))
 
 
-def publish(project: Project, console: Console) -> list[Failure]:
+def publish(project: Project, console: Console, code: str = "") -> list[Failure]:
     """Write the pages, all or none. What fails is returned by the name of the notebook or the link, and then the old
-    pages are gone too: they would show another build."""
+    pages are gone too: they would show another build. code: where the book has its code, "" for what book.toml says.
+    """
     try:
-        why = reasons(project)
+        why = reasons(project, code)
     except UsageError as error:
         withdraw(project)
         return [Failure("", str(error), kind="export", repeat="loopbook build")]
     if not why:
         return []
     began = time.monotonic()
-    prints = _prints(project)
+    prints = _prints(project, code)
     missing = [n.id for n in project.notebooks() if not _built(project, n)]
     if missing:
         withdraw(project)
         console.line(f"no {', '.join(NAMES)}: not built {', '.join(missing)}")
         return []
     try:
-        made, failures = _make(project)
+        made, failures = _make(project, code)
     except (UsageError, ValueError) as error:
         made, failures = {}, [Failure("", str(error), kind="export", repeat="loopbook build")]
     if failures:
@@ -98,7 +100,7 @@ def versions() -> dict[str, str]:
     return found
 
 
-def _make(project: Project) -> tuple[dict[str, bytes], list[Failure]]:
+def _make(project: Project, code: str) -> tuple[dict[str, bytes], list[Failure]]:
     """The content of the three files, or why there is none. Raises UsageError for an outline that does not fit."""
     import_nbformat()
     from notebook_reports.pages import screen
@@ -113,10 +115,14 @@ def _make(project: Project) -> tuple[dict[str, bytes], list[Failure]]:
     tools = versions()
     made: dict[str, bytes] = {}
     try:
-        appendix = ledger.pages(PAPER, counts, found, words)
+        titles = {entry["id"]: entry["title"] for entry in outline.entries}
+        numbered = {id: f"{number}  {title}" for number, (id, title) in enumerate(titles.items(), start=1)}
+        front = [preface(PAPER, counts)]
+        appendix = ledger.pages(PAPER, counts, found, words, numbered)
         built = "Made with " + ", ".join(f"{name} {number}" for name, number in tools.items())
-        made[BOOK] = volume(project, outline, appendix, [*ledger.sentences(counts), ledger.errors(found), built])
-        on_screen = ledger.pages(SCREEN, counts, found, words)
+        lines = [*ledger.sentences(counts), ledger.errors(found), built]
+        made[BOOK] = volume(project, outline, front, appendix, lines, code or outline.code)
+        on_screen = ledger.pages(SCREEN, counts, found, words, titles)
         made[LEDGER] = screen.ledger_page(on_screen, outline.title)
     except ExportError as error:
         repeat = f"loopbook build {error.notebook}" if "/" in error.notebook else "loopbook build"
@@ -124,10 +130,11 @@ def _make(project: Project) -> tuple[dict[str, bytes], list[Failure]]:
             Failure(error.notebook, f"the book: {p.text}", p.cell or 0, repeat=repeat, kind="export")
             for p in error.problems
         ]
+    executed = {n.id: stamps.executed(project, n) for n in project.notebooks()}
     sizes = {name: len(content) for name, content in made.items()}
     files = [*(n for entry in entries for n in entry["reports"].values()), *ledger_files.FILES.values()]
     sizes |= {name: (project.reports / name).stat().st_size for name in files if (project.reports / name).exists()}
-    made[INDEX] = screen.index_page(outline, counts, [p.title for p in on_screen], tools, sizes)
+    made[INDEX] = screen.index_page(outline, counts, found, executed, [p.title for p in on_screen], tools, sizes)
     dead = [(name, line) for name in (LEDGER, INDEX) for line in dead_links(name, project.reports, made)]
     return made, [Failure("", f"reports/{name}: {line}", kind="export", repeat="loopbook build") for name, line in dead]
 
@@ -145,9 +152,9 @@ def _stamp(project: Project) -> dict[str, Any] | None:
     return stamp if stamp and {"prints", "files"} <= set(stamp) else None
 
 
-def _prints(project: Project) -> fingerprint.Prints:
+def _prints(project: Project, code: str) -> fingerprint.Prints:
     """What the pages depend on: executed notebooks, what stands beside them, printed data, the code, the versions."""
-    prints = {}
+    prints = {"--code": code}
     for notebook in project.notebooks():
         prints[notebook.id] = hash_now(stamps.executed_path(project, notebook))
     beside = (p for p in project.notebooks_folder.rglob("*") if p.is_file() and p.suffix != ".ipynb")

@@ -5,16 +5,21 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from notebook_reports.export.around import Around, Door, Tools
 from notebook_reports.export.exporters.html import style_sheet
 from notebook_reports.export.page import Page, export_page
 from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.scripts import policy
 from notebook_reports.export.write.html import HtmlWriter
+from notebook_reports.export.write.mathematics_font import font_face
+from notebook_reports.ledger.captions import verb_of
 from notebook_reports.ledger.coverage import VERDICTS, Count, by_document, total
 from notebook_reports.ledger.files import FILES
-from notebook_reports.ledger.row import TABLES
+from notebook_reports.ledger.row import TABLES, LedgerRow
 from notebook_reports.ledger.verdicts import MARKS
-from notebook_reports.pages.ledger_page import NAMES, verb_of
+from notebook_reports.pages.errata import errata
+from notebook_reports.pages.front import finds, opening, picture
+from notebook_reports.pages.ledger_page import NAMES
 from notebook_reports.pages.medium import as_sections
 from notebook_reports.project.outline import Outline
 
@@ -23,21 +28,26 @@ ONE = {"values": "value", "statements": "statement", "misprints": "misprint"}
 
 
 def ledger_page(pages: Sequence[Page], title: str) -> bytes:
-    """The pages of the ledger as one. Raises ExportError."""
-    return export_page(Page("The ledger", as_sections(pages), "ledger"), title).encode()
+    """The pages of the ledger as one, with a box that filters its rows. Raises ExportError."""
+    around = Around(Door("index.html", title), files=(Door("loopbook.pdf", "PDF"),))
+    tools = Tools((TEMPLATES / "filter.html").read_text("utf-8"), (TEMPLATES / "filter.js").read_text("utf-8"))
+    return export_page(Page("The ledger", as_sections(pages), "ledger"), title, around, tools).encode()
 
 
 def index_page(
     outline: Outline,
     counts: Sequence[Count],
+    found: Sequence[LedgerRow],
+    executed: Mapping[str, Mapping[str, Any]],
     sections: Sequence[str],
     versions: Mapping[str, str],
     sizes: Mapping[str, int],
 ) -> bytes:
-    """The map: the book, the ledger's sections, each notebook with its reports and verdicts, the versions.
+    """The front page: a picture, what was found in words, the book, the ledger, each notebook with its reports.
 
-    sections: titles of the ledger's sections. sizes: of the files below ``reports/``, in bytes, by name; the ledger's
-    tables are listed where they are among them.
+    executed: the notebooks by id. sections: titles of the ledger's sections. sizes: of the files below ``reports/``, in
+    bytes, by name; the ledger's tables are listed where they are among them. Raises UsageError where the outline names
+    a figure or an entry that is not there.
     """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
@@ -47,6 +57,10 @@ def index_page(
     told: dict[str, Any] = {
         "outline": outline,
         "style": style_sheet(),
+        "picture": picture(outline, executed[outline.picture[0]]) if outline.picture else "",
+        "finds": {part.folder: finds(part, found) for part in outline.parts},
+        "opening": lambda id: opening(executed[id]),
+        "whole": headline(counts, found),
         "policy": policy(),
         "bars": {"": bars(total(counts)), **{d.document.replace("-", "_"): bars(d) for d in by_document(counts)}},
         "sections": [(title, title.replace(" ", "-")) for title in sections],
@@ -57,7 +71,17 @@ def index_page(
         "inline": lambda text: HtmlWriter().inline(read_inline(text)),
         "escape": escape,
     }
-    return environment.get_template("index.html.j2").render(**told).encode()
+    text = environment.get_template("index.html.j2").render(**told)
+    return (text.replace("<style>\n", f"<style>\n{face}\n", 1) if (face := font_face(text)) else text).encode()
+
+
+def headline(counts: Sequence[Count], found: Sequence[LedgerRow]) -> list[tuple[str, str]]:
+    """The largest numbers of all, each with what it counts."""
+    whole = total(counts)
+    names = {"value": "printed numbers computed again", "claim": "statements put to the test"}
+    rows = [(str(whole.printed[table]), name) for table, name in names.items() if whole.printed[table]]
+    wrong = errata(found)
+    return [*rows, (str(len(wrong)), "errors found in the documents")] if wrong else rows
 
 
 def chips(verdicts: Mapping[str, Mapping[str, int]]) -> list[tuple[str, list[tuple[str, str]]]]:

@@ -9,8 +9,11 @@ from notebook_reports.project.outline import Outline
 from notebook_reports.project.project import Project
 
 
-def volume(project: Project, outline: Outline, appendix: Sequence[Page], lines: Sequence[str]) -> bytes:
-    """The book. lines: at the foot of the cover. Raises ExportError."""
+def volume(
+    project: Project, outline: Outline, front: Sequence[Page], appendix: Sequence[Page], lines: Sequence[str], code: str
+) -> bytes:
+    """The book. front: before the first chapter. lines: at the foot of the cover. code: where that of each chapter
+    stands. Raises ExportError."""
     notebooks = {n.id: n for n in project.notebooks()}
     chapters = []
     for part in outline.parts:
@@ -33,6 +36,8 @@ def volume(project: Project, outline: Outline, appendix: Sequence[Page], lines: 
         title=outline.title,
         subtitle=outline.subtitle,
         lines=lines,
+        front=front,
         appendix=appendix,
+        code=code,
         appendix_title="Ledger, glossary, index",
     )

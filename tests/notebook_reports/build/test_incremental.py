@@ -115,9 +115,12 @@ def test_prose_is_rendered_without_running(two, monkeypatch):
     monkeypatch.setattr(run, "run_notebook", None)
     two.write("a/alone", "# Another title", "> and a paragraph", "1 + 1")
     assert two.build().code == 0
-    assert two.exported == ["a/alone.html"] and "(exported again: its text)" in two.said
+    assert "a/alone.html" in two.exported and "(exported again: its text)" in two.said
+    assert "(exported again: its place in the book)" in two.said, "its neighbour shows its title"
+    two.write("a/alone", "# Another title", "> and another paragraph", "1 + 1")
+    assert two.build().code == 0 and two.exported == ["a/alone.html"]
     built = two.executed("a/alone")
-    assert [c["source"] for c in built["cells"]] == ["# Another title", "> and a paragraph", "1 + 1"]
+    assert [c["source"] for c in built["cells"]] == ["# Another title", "> and another paragraph", "1 + 1"]
     assert built["cells"][2]["outputs"][0]["data"]["text/plain"] == "2"
 
 

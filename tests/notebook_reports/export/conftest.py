@@ -66,24 +66,29 @@ SVG = (
 def typst(nb, **particulars):
     """The Typst source of a notebook, compiled on the way, so that what a test reads is known to be a PDF."""
     from notebook_reports.export.exporters.pdf import PdfExporter
-    from notebook_reports.export.write.typst_engine import compile_turning
+    from notebook_reports.export.write.typst_engine import compile_settled
 
     told = {"name": "folder/sample", "mode": "strict", **particulars}
     exporter = PdfExporter()
     report = exporter.report(nb, {"metadata": {}, "loopbook": told})
     sources = []
 
-    def write(turned):
-        sources.append(exporter.source(report, turned))
+    def write(layout):
+        sources.append(exporter.source(report, layout))
         return sources[-1]
 
-    assert compile_turning(write).startswith(b"%PDF-1.7")
+    assert compile_settled(write).startswith(b"%PDF-1.7")
     return sources[-1][0]
 
 
 def html(nb, **particulars):
-    """The HTML of a notebook."""
-    return export(nb, "html", **{"name": "folder/sample", **particulars}).decode()
+    """The HTML of a notebook without the script that every page has, known to be there once and as it should be."""
+    from notebook_reports.export.exporters.html import page_script
+
+    page = export(nb, "html", **{"name": "folder/sample", **particulars}).decode()
+    own = f"<script>{page_script()}</script>\n"
+    assert page.count(own) == 1
+    return page.replace(own, "")
 
 
 @pytest.fixture

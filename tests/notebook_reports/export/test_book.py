@@ -15,12 +15,12 @@ pytestmark = pytest.mark.builds
 def written(monkeypatch):
     """Builds a book; gives its Typst source."""
     sources = []
-    compiled = book.compile_turning
+    compiled = book.compile_settled
 
     def spy(write):
         return compiled(lambda turned: (sources.append(write(turned)), sources[-1])[1])
 
-    monkeypatch.setattr(book, "compile_turning", spy)
+    monkeypatch.setattr(book, "compile_settled", spy)
 
     def build(*arguments, **told):
         assert export_book(*arguments, **told).startswith(b"%PDF")

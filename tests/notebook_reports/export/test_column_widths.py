@@ -7,7 +7,7 @@ import pytest
 import typst
 
 from notebook_reports.export.model import Cell, Code, Grid, Math, Text
-from notebook_reports.export.write.column_widths import SIZE, breakable_words, deciding, extent, height, unbroken
+from notebook_reports.export.write.column_widths import SIZE, breakable_words, deciding, extent, row_heights, unbroken
 from notebook_reports.export.write.typst_engine import fonts
 from notebook_reports.export.write.typst_text import typst_string
 
@@ -117,7 +117,7 @@ def test_letters_of_code_are_equally_wide():
 
 def test_a_table_gets_higher_with_its_rows_and_with_what_they_hold():
     low, long, many = column(["a"] * 3), column(["a", "word " * 80, "c"]), column(["a"] * 30)
-    assert height(low) < height(long) < height(many)
+    assert sum(row_heights(low)) < sum(row_heights(long)) < sum(row_heights(many))
 
 
 def test_a_column_of_numbers_is_tight_whatever_its_head():

@@ -53,3 +53,32 @@ def test_what_cannot_be_exported_is_one_message(folder, arguments, told):
     run = nbconvert(folder, "--to", "loopbook_pdf", *arguments)
     said = [line for line in run.stderr.splitlines() if not line.startswith("[NbConvertApp]")]
     assert run.returncode == 1 and len(said) == 1 and told in said[0], run.stderr
+
+
+@pytest.mark.parametrize(
+    ("settings", "gone", "kept"),
+    [
+        ({"TemplateExporter": {"exclude_input": True}}, ["code 1"], ["words", "out 1"]),
+        ({"TemplateExporter": {"exclude_output": True}}, ["out 1"], ["code 1"]),
+        ({"TemplateExporter": {"exclude_markdown": True}}, ["words"], ["code 1", "out 1"]),
+        ({"TagRemovePreprocessor": {"remove_cell_tags": {"secret"}}}, ["code 2", "out 2"], ["code 1", "out 1"]),
+        ({"TagRemovePreprocessor": {"remove_input_tags": {"secret"}}}, ["code 2"], ["out 2", "code 1"]),
+        ({"RegexRemovePreprocessor": {"patterns": ["words"]}}, ["words"], ["code 1"]),
+        ({"ClearOutputPreprocessor": {"enabled": True}}, ["out 1", "out 2"], ["code 1", "code 2"]),
+    ],
+)
+def test_what_nbconvert_is_told_to_leave_out_is_left_out(make, settings, gone, kept):
+    """``--no-input`` is the first of these."""
+    import re
+
+    from traitlets.config import Config
+
+    from notebook_reports.export.exporters.html import HtmlExporter
+
+    cells = [make.code(make.stream(f"out {n}"), source=f"# code {n}", tags=["secret"] * (n == 2)) for n in (1, 2)]
+    notebook = make.notebook("# T", "words", *cells)
+    before = nbformat.writes(notebook)
+    page, _ = HtmlExporter(config=Config(settings)).from_notebook_node(notebook)
+    seen = re.sub(r"<(style|script)>.*?</\1>|<[^>]*>", "", page, flags=re.DOTALL)
+    assert not [words for words in gone if words in seen] and all(words in seen for words in kept)
+    assert nbformat.writes(notebook) == before, "the notebook given stays as it is"

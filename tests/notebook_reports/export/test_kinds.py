@@ -22,7 +22,8 @@ from notebook_reports.export.exporters.html import HtmlExporter
 from notebook_reports.export.exporters.pdf import PdfExporter
 from notebook_reports.export.read import outputs
 from notebook_reports.export.words import compare
-from notebook_reports.export.write.pdf_text import PdfText, outside, text_of
+from notebook_reports.export.write.page_words import outside, text_of
+from notebook_reports.export.write.pdf_text import PdfText
 
 FOLDER = Path(__file__).parent / "kinds"
 

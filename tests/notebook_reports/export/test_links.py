@@ -20,7 +20,7 @@ def test_headings_are_numbered_without_gaps_and_listed_from_three_on(make):
     for number, tag in (("1", "h2"), ("1.1", "h3"), ("2", "h2"), ("2.1", "h3")):
         assert f'<span class="number">{number}</span>' in page
         assert f"<{tag} id=" in page
-    assert page.count('<nav aria-labelledby="contents-title">') == 1
+    assert page.count('<nav class="contents" aria-labelledby="contents-title">') == 1
     assert '#section(2, "2.1", label("Under"))' in make.typst(nb)
     assert "<nav" not in make.html(make.notebook("# T\n\n## One\n\n## Two"))
 
@@ -33,7 +33,7 @@ def test_anchors_are_jupyters(make):
     nb = make.notebook(
         "# T\n\n## Two tanks, $q = 0$\n\n[there](#Two-tanks,-$q-=-0$) [again](#Two%20tanks,%20$q%20=%200$)"
     )
-    assert make.html(nb).count('href="#Two-tanks,-$q-=-0$"') == 2
+    assert make.html(nb).count('<a href="#Two-tanks,-$q-=-0$"') == 2
     assert make.typst(nb).count('#inner(label("Two-tanks,-$q-=-0$"))') == 2
 
 

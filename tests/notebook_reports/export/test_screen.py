@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from notebook_reports.display import Figure, Table
+from notebook_reports.export.around import Around, Door
 from notebook_reports.export.write.inside_page import inside_page
 
 VOID = {"meta", "br", "hr", "img", "input", "link"}
@@ -101,3 +102,74 @@ def test_links_of_a_drawing_from_elsewhere_do_not_run_scripts(make):
         make.notebook(make.code(Figure('<svg xmlns="http://www.w3.org/2000/svg"><style>p{}</style></svg>', "c", "a")))
     )
     assert '<img src="data:image/svg+xml;base64,' in page
+
+
+AROUND = Around(
+    Door("../index.html", "The book of $x$"),
+    Door("01_a.html", "Before"),
+    Door("03_c.html", "After & beyond"),
+    (Door("02_b.pdf", "PDF"), Door("02_b.ipynb", "notebook")),
+)
+
+
+def test_a_way_back_the_neighbours_and_the_other_forms(make):
+    page = make.html(make.notebook("# T\n\n## A\n\n## B\n\n## C"), around=AROUND)
+    bar = re.search(r'<nav class="bar".*?</nav>', page, re.S)[0]
+    assert re.findall(r'href="([^"]+)"', bar) == [
+        "../index.html",
+        "01_a.html",
+        "03_c.html",
+        "#contents-title",
+        "02_b.pdf",
+        "02_b.ipynb",
+    ]
+    assert "The book of <math" in bar and 'aria-label="the next chapter: After &amp; beyond"' in bar
+    onward = re.search(r'<nav class="onward".*?</nav>', page, re.S)[0]
+    assert re.findall(r'rel="(\w+)" href="([^"]+)"', onward) == [("prev", "01_a.html"), ("next", "03_c.html")]
+    alone = make.html(make.notebook("# T"))
+    assert 'class="bar"' not in alone and 'class="onward"' not in alone
+
+
+def test_headings_lead_to_themselves(make):
+    page = make.html(make.notebook("# T\n\n## Two tanks"))
+    assert '<a class="anchor" href="#Two-tanks" aria-label="Link to this section"></a></h2>' in page
+
+
+def test_code_is_folded_where_that_is_asked_for_or_tagged(make):
+    plain = make.code(make.stream("out 1"), source="a = 1\nb = 2")
+    tagged = make.code(make.stream("out 2"), source="c = 3", tags=["hide-input"])
+    away = make.code(make.stream("out 3"), source="d = 4", tags=["remove-input"])
+    output = make.code(make.stream("out 4"), source="e = 5", tags=["hide-output"])
+    nb = make.notebook("# T", plain, tagged, away, output)
+    fold = r'<details class="fold"><summary>(.*?)</summary><pre class="(\w+)">'
+    page = make.html(nb)
+    assert re.findall(fold, page) == [("Code<small>, 1 line</small>", "input"), ("Output", "output")]
+    assert "d = 4" not in re.sub("<[^>]+>", "", page) and "out 3" in page
+    folded = re.findall(fold, make.html(nb, folded=True))
+    assert [words for words, _ in folded] == [
+        "Code<small>, 2 lines</small>",
+        "Code<small>, 1 line</small>",
+        "Code<small>, 1 line</small>",
+        "Output",
+    ]
+
+
+@pytest.mark.builds
+def test_on_paper_hidden_code_is_left_out_and_hidden_output_is_there(make):
+    tagged = make.code(make.stream("out 2"), source="c = 3", tags=["hide-input"])
+    output = make.code(make.stream("out 4"), source="e = 5", tags=["hide-output"])
+    source = make.typst(make.notebook("# T", tagged, output))
+    assert "c = 3" not in source and all(words in source for words in ("out 2", "e = 5", "out 4"))
+
+
+@pytest.mark.builds
+def test_code_goes_to_the_end_or_away(make):
+    shown = make.code(make.stream("shown"), source="b = 2")
+    nb = make.notebook("# T\n\n## One", make.code(source="a = 1"), "## Two", shown)
+    source = make.typst(nb, code="end")
+    order = [source.index(words) for words in ('"shown"', "The code", "1 One", '"a = 1"', "2 Two", '"b = 2"')]
+    assert order == sorted(order)
+    gone = make.typst(nb, code="none")
+    assert "a = 1" not in gone and "The code" not in gone and '"shown"' in gone
+    page = make.html(nb, code="end")
+    assert page.index("shown") < page.index('id="the-code"') < page.index('<pre class="input">')

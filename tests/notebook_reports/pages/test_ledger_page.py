@@ -41,7 +41,7 @@ def urls(page):
 @pytest.mark.parametrize("medium", [PAPER, SCREEN], ids=["paper", "screen"])
 def test_every_record_stands_in_exactly_one_report(medium):
     for record in everything():
-        made = {p.name: p for p in ledger.pages(medium, coverage([], [record]), [record], [])}
+        made = {p.name: p for p in ledger.pages(medium, coverage([], [record]), [record], [], {})}
         rows = [name for name in ("errata", "open", "reproduced") if name in made and urls(made[name])]
         assert len(rows) == 1, record
         assert urls(made[rows[0]]) == [f"notebook:double_tank/01#cell-{record.cell}"]
@@ -69,15 +69,16 @@ def test_paper_names_the_page_and_the_screen_the_section():
     screen = SCREEN.table(["place", SCREEN.where], rows, "c")
     assert paper.pages == {(0, 1), (1, 1)} and not screen.pages
     assert paper.links == screen.links == {(0, 1): "notebook:a/b#cell-3", (1, 1): "notebook:a/b#cell-5"}
-    assert screen.table.rows == [["here", "Results"], ["", "More"]]
+    assert screen.table.rows == [["here", "Results"], ["here", "More"]]
+    assert not screen.table.repeats(0, 0) and screen.table.repeats(1, 0) and not screen.table.repeats(1, 1)
 
 
 def test_the_index_leads_from_a_place_to_the_first_cell_of_each_section():
     records = [found(str(c), "value", "given", place="Table 10", cell=c) for c in (9, 7)]
     records += [found("x", "claim", "holds", place="Table 2", cell=8)]
-    _, table = ledger.index_page(PAPER, records)
+    _, table = ledger.index_page(PAPER, records, {"double_tank/01": "4  A chapter"})
     assert [row[0] for row in table.table.rows] == ["Table 2", "Table 10"]
-    assert [row[1:3] for row in table.table.rows] == [["01", "Results"]] * 2
+    assert [row[1:3] for row in table.table.rows] == [["4  A chapter", "Results"]] * 2
     assert {table.links[0, 1], table.links[1, 1]} == {"notebook:double_tank/01"}
     assert [table.links[y, 3] for y in (0, 1)] == ["notebook:double_tank/01#cell-8", "notebook:double_tank/01#cell-7"]
 

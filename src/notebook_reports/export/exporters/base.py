@@ -1,5 +1,6 @@
 """What the exporters share."""
 
+import copy
 import functools
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,11 +10,12 @@ from typing import Any
 from nbconvert.exporters.templateexporter import TemplateExporter
 from traitlets import Bool, Unicode, default
 
+from notebook_reports.export.code_cells import CODE, place_code
 from notebook_reports.export.errors import ExportError, Problem
 from notebook_reports.export.formulas import as_mathml, as_text, as_typst
 from notebook_reports.export.mends import MODES, mend_lines
 from notebook_reports.export.model import Display, Math, Report, walk
-from notebook_reports.export.read.notebook import read
+from notebook_reports.export.read.notebook import PARTS, read
 from notebook_reports.export.write.typst_engine import TypstFailed, cell_finder, explain
 from notebook_reports.mathematics import MathError
 
@@ -26,7 +28,9 @@ CONTENTS_FROM = 3
 class ReportExporter(TemplateExporter):
     """What the PDF and the HTML exporter share: the notebook read into a report, and its particulars.
 
-    `resources["loopbook"]` may hold name, title, document, chapter, language and author; the traits are the defaults.
+    `resources["loopbook"]` may hold name, title, document, chapter, language, author, mode, code, folded and, for the
+    screen, around; the traits are the defaults. nbconvert's own options hold as well: what it leaves out
+    (``--no-input``) and the preprocessors that its user switches on (``--execute``, tags to be removed).
     """
 
     document = Unicode("", help="The document a notebook belongs to; equation anchors carry it.").tag(config=True)
@@ -39,12 +43,18 @@ class ReportExporter(TemplateExporter):
         help="What cannot be shown: a numbered box in its place and a list at the end (mend), or an error (strict).",
     ).tag(config=True)
 
+    code = Unicode(
+        "inline", help="Where the code stands: in its place (inline), after the last section (end), nowhere (none)."
+    ).tag(config=True)
+    folded = Bool(False, help="On the screen, code is shown to who opens it.").tag(config=True)
+
     @default("extra_template_basedirs")
     def _own_templates(self) -> list[str]:
         return [str(TEMPLATES)]
 
     def report(self, nb: Any, resources: dict[str, Any]) -> Report:
         """Read the notebook. Raises ExportError."""
+        nb = self._prepared(nb, resources)
         told = {key: value for key, value in resources.get("loopbook", {}).items() if value not in ("", None)}
         metadata = resources.get("metadata") or {}
         particulars = {
@@ -57,11 +67,29 @@ class ReportExporter(TemplateExporter):
             "strict_alt": self.strict_alt,
             "mode": self.mode,
         }
-        wanted = {**particulars, **told}
-        if wanted["mode"] not in MODES:
-            problem = f"the mode is one of {', '.join(MODES)}, got {wanted['mode']!r}"
-            raise ExportError(wanted["name"], [Problem(None, problem)])
-        return read(nb, **wanted)
+        wanted = {**particulars, "code": self.code, **told}
+        for trait, known in (("mode", MODES), ("code", CODE)):
+            if wanted[trait] not in known:
+                problem = f"the {trait} is one of {', '.join(known)}, got {wanted[trait]!r}"
+                raise ExportError(wanted["name"], [Problem(None, problem)])
+        code, _, _ = (wanted.pop(name, None) for name in ("code", "folded", "around"))
+        report = read(nb, **wanted, leave_out=self._left_out())
+        place_code(report, code)
+        return report
+
+    def _left_out(self) -> frozenset[str]:
+        """The parts that nbconvert is told to leave out."""
+        names = dict(zip(PARTS, ("markdown", "raw", "code_cell", "input", "output"), strict=True))
+        return frozenset(part for part, name in names.items() if getattr(self, f"exclude_{name}"))
+
+    def _prepared(self, nb: Any, resources: dict[str, Any]) -> Any:
+        """The notebook after the preprocessors that have something to do."""
+        active = [p for p in self._preprocessors if _has_work(p)]
+        if active:
+            nb = copy.deepcopy(nb)
+        for preprocessor in active:
+            nb, _ = preprocessor(nb, resources)
+        return nb
 
     def mended(self, resources: dict[str, Any]) -> bool:
         """Is this export one that mends what it cannot show?"""
@@ -83,6 +111,19 @@ class ReportExporter(TemplateExporter):
         """The same for a stream."""
         with one_message():
             return super().from_file(file_stream, resources=resources, **kw)
+
+
+def _has_work(preprocessor: Any) -> bool:
+    """Is it switched on, and, of those that always are, told what to remove?"""
+    if not getattr(preprocessor, "enabled", True):
+        return False
+    match type(preprocessor).__name__:
+        case "TagRemovePreprocessor":
+            kinds = ("cell", "all_outputs", "single_output", "input")
+            return any(getattr(preprocessor, f"remove_{kind}_tags") for kind in kinds)
+        case "RegexRemovePreprocessor":
+            return bool(preprocessor.patterns)
+    return True
 
 
 @contextmanager

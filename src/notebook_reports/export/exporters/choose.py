@@ -10,6 +10,7 @@ import functools
 from pathlib import Path
 from typing import Any
 
+from notebook_reports.export.around import Around
 from notebook_reports.export.errors import ExportError, Problem
 
 FORMATS = ("pdf", "html")
@@ -30,6 +31,9 @@ def export(
     strict_alt: bool = True,
     mode: str = "strict",
     root: Path | None = None,
+    code: str = "inline",
+    folded: bool = False,
+    around: Around | None = None,
 ) -> bytes:
     """The report of one executed notebook.
 
@@ -37,7 +41,8 @@ def export(
     title: default the first top heading. document, chapter: for the title block and the running head. assets: the
     folder where relative images are looked up; root: the folder below which they have to lie, default the same.
     strict_alt: a picture without alternative text is an error. mode: "strict", or "mend", which shows a numbered box in
-    place of what a page cannot show and lists all of them at its end.
+    place of what a page cannot show and lists all of them at its end. code: "inline", "end" or "none". On the screen,
+    folded: code is shown to who opens it; around: the ways to the other pages.
     Equal input gives equal bytes. Raises ExportError; ValueError for an unknown format.
     """
     if format not in FORMATS:
@@ -51,6 +56,9 @@ def export(
         "strict_alt": strict_alt,
         "mode": mode,
         "root": root,
+        "code": code,
+        "folded": folded,
+        "around": around,
     }
     metadata = {"name": name.rpartition("/")[2], **({} if assets is None else {"path": str(assets)})}
     output, _ = _exporter(format).from_notebook_node(nb, {"metadata": metadata, "loopbook": told})

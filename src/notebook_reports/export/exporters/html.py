@@ -10,43 +10,27 @@ from typing import Any
 
 from traitlets import default
 
+from notebook_reports.export.around import Around, Tools
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, ReportExporter, problems
 from notebook_reports.export.mends import number_mends
-from notebook_reports.export.model import Heading, Report, words_only
+from notebook_reports.export.model import Report
 from notebook_reports.export.write.html import HtmlWriter
+from notebook_reports.export.write.html_frame import bar, contents, onward
 from notebook_reports.export.write.mathematics_font import font_face
 from notebook_reports.export.write.mending import mend_formulas
+
+
+@functools.cache
+def page_script() -> str:
+    """The script of every report: copy buttons, all code at once, where the reader is."""
+    return (TEMPLATES / "loopbook_html" / "page.js").read_text(encoding="utf-8")
 
 
 @functools.cache
 def style_sheet() -> str:
     """The styles of every report."""
     return (TEMPLATES / "loopbook_html" / "style.css").read_text(encoding="utf-8")
-
-
-def contents(report: Report, writer: HtmlWriter) -> str:
-    """The table of contents as nested lists, or nothing for a short report."""
-    headings = [heading for heading in report.headings if heading.level <= 2]
-    if len(report.headings) < CONTENTS_FROM:
-        return ""
-
-    def entry(heading: Heading) -> str:
-        number = f'<span class="number">{heading.number}</span> ' if heading.number else ""
-        return f'<a href="#{escape(heading.anchor)}">{number}{writer.inline(words_only(heading.children))}</a>'
-
-    parts, depth = [], 0
-    for heading in headings:
-        while depth < heading.level:
-            parts.append("<ul><li>")
-            depth += 1
-            fresh = True
-        if not fresh:
-            parts.append("</li></ul>" * (depth - heading.level) + "</li><li>")
-            depth = heading.level
-        parts.append(entry(heading))
-        fresh = False
-    return "".join(parts) + "</li></ul>" * depth
 
 
 class HtmlExporter(ReportExporter):
@@ -71,21 +55,29 @@ class HtmlExporter(ReportExporter):
             mend_formulas(report, "mathml")
             number_mends(report)
             self.tell(report, resources)
-        text = self.render(report)
+        told = resources.get("loopbook", {})
+        text = self.render(report, told.get("around"), told.get("folded", self.folded))
         resources["output_extension"] = self.file_extension
         return text, resources
 
-    def render(self, report: Report) -> str:
-        """A report that is read, as one page. Raises ExportError."""
+    def render(
+        self, report: Report, around: Around | None = None, folded: bool = False, tools: Tools | None = None
+    ) -> str:
+        """A report that is read, as one page. tools: of this page alone. Raises ExportError."""
         found = problems(report, "mathml")
         if found:
             raise ExportError(report.name, found)
-        writer = HtmlWriter(report.name)
+        writer = HtmlWriter(report.name, folded=folded)
+        has_contents = len(report.headings) >= CONTENTS_FROM
         page: dict[str, Any] = {
             "report": report,
             "writer": writer,
             "style": style_sheet(),
-            "contents": contents(report, HtmlWriter(report.name)),
+            "bar": bar(around, has_contents),
+            "contents": contents(report) if has_contents else "",
+            "onward": onward(around),
+            "tools": tools,
+            "page_script": page_script(),
             "escape": escape,
         }
         text = self.template.render(**page)

@@ -8,6 +8,7 @@ from typing import Any
 
 from traitlets import default
 
+from notebook_reports.export.code_cells import for_paper
 from notebook_reports.export.errors import ExportError
 from notebook_reports.export.exporters.base import (
     ReportExporter,
@@ -18,9 +19,10 @@ from notebook_reports.export.exporters.base import (
 )
 from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import Report
+from notebook_reports.export.write.arrangement import AS_IT_COMES, Arrangement
 from notebook_reports.export.write.mending import Written, compile_mending, mend_formulas
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
-from notebook_reports.export.write.typst_engine import TypstFailed, compile_turning
+from notebook_reports.export.write.typst_engine import TypstFailed, compile_settled
 from notebook_reports.export.write.typst_text import typst_string
 
 
@@ -45,6 +47,7 @@ class PdfExporter(ReportExporter):
     def report(self, nb: Any, resources: dict[str, Any]) -> Report:
         """The notebook read, its formulas known to be understood. Raises ExportError."""
         report = super().report(nb, resources)
+        for_paper(report)
         if self.mended(resources):
             mend_formulas(report, "typst")
             number_mends(report)
@@ -52,14 +55,14 @@ class PdfExporter(ReportExporter):
             raise ExportError(report.name, found)
         return report
 
-    def source(self, report: Report, turned: frozenset[str] = frozenset()) -> tuple[str, dict[str, bytes]]:
-        """The Typst source of a report and the files beside it. turned: tables that get a landscape page."""
-        text, files, _ = self.written(report, turned)
+    def source(self, report: Report, layout: Arrangement = AS_IT_COMES) -> tuple[str, dict[str, bytes]]:
+        """The Typst source of a report and the files beside it."""
+        text, files, _ = self.written(report, layout)
         return text, files
 
-    def written(self, report: Report, turned: frozenset[str] = frozenset()) -> Written:
+    def written(self, report: Report, layout: Arrangement = AS_IT_COMES) -> Written:
         """The same, and the tables written, by the names that the engine calls them."""
-        writer = TypstWriter(report.name, turned=turned, naming=report.mended)
+        writer = TypstWriter(report.name, layout=layout, naming=report.mended)
         told = {"report": report, "depth": contents_depth(report), "writer": writer, "literal": typst_string}
         text = self.template.render(**told, functions=IMPORT)
         return text, {**support_files(), **writer.files}, writer.grids
@@ -70,10 +73,10 @@ class PdfExporter(ReportExporter):
         report = self.report(nb, resources)
         try:
             if self.mended(resources):
-                pdf = compile_mending(report, lambda turned: self.written(report, turned))
+                pdf = compile_mending(report, lambda layout: self.written(report, layout))
                 self.tell(report, resources)
             else:
-                pdf = compile_turning(lambda turned: self.source(report, turned))
+                pdf = compile_settled(lambda layout: self.source(report, layout))
         except TypstFailed as error:
             raise as_export_error(error, report.name) from None
         resources["output_extension"] = self.file_extension

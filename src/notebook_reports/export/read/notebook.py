@@ -3,6 +3,7 @@
 import difflib
 import posixpath
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -13,12 +14,14 @@ from notebook_reports.export.model import (
     Block,
     Display,
     FigureBlock,
+    Folded,
     Grid,
     Heading,
     Inline,
     Link,
     Mend,
     Note,
+    Paragraph,
     Picture,
     Report,
     ReportCell,
@@ -37,10 +40,16 @@ from notebook_reports.export.read.outputs import read_outputs
 from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
 from notebook_reports.export.read.terminal import visible
 
-NO_INPUT = {"remove-input", "hide-input", "remove_input", "hide_input"}
+NO_INPUT = {"remove-input", "remove_input"}
 NO_OUTPUT = {"remove-output", "remove_output"}
 NO_CELL = {"remove-cell", "remove_cell"}
+FOLDED_INPUT = {"hide-input", "hide_input", "hide-cell", "hide_cell"}
+FOLDED_OUTPUT = {"hide-output", "hide_output", "hide-cell", "hide_cell"}
+PARTS = ("markdown", "raw", "code", "input", "output")
+"""What may be left out of a report as a whole."""
 NEW_PAGE = "new-page"
+LONGEST_LEAD = 360
+"""Characters of a paragraph, four lines, up to which it stays with what it introduces."""
 _SCHEME = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*):")
 _NUMBERED = re.compile(r"\s*(\d+(\.\d+)*[.):]?|[IVX]+\.|[A-Z]\.|§.*)\s")
 
@@ -57,12 +66,13 @@ def read(
     strict_alt: bool = False,
     mode: str = "strict",
     root: Path | None = None,
+    leave_out: frozenset[str] = frozenset(),
 ) -> Report:
     """Read a notebook (nbformat 4). Raises ExportError that names every cell which holds what no page can show.
 
     The title is the one given, else the first top heading, else the last part of `name`. name: "folder/notebook", as
     links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes. folder:
-    where relative images are looked up; root: below which they have to lie, default the folder.
+    where relative images are looked up; root: below which they have to lie, default the folder. leave_out: of `PARTS`.
     """
     reading = Reading(folder, document, strict_alt, mode == "mend", root)
     sources = _markdown_sources(notebook)
@@ -71,7 +81,7 @@ def read(
     for number, cell in enumerate(notebook["cells"], start=1):
         reading.cell = number
         reading.attachments = cell.get("attachments") or {}
-        blocks = _cell(cell, reading, _language(notebook))
+        blocks = _cell(cell, reading, _language(notebook), leave_out)
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
         cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
     first = _take_title(cells)
@@ -85,6 +95,7 @@ def read(
     report.aliases = plain_headings(cells)
     level_headings(cells)
     number_blocks(cells)
+    mark_leads(cells)
     equations = number_equations(report)
     collect_anchors(report, reading)
     settle_references(report, equations, reading)
@@ -108,10 +119,10 @@ def _language(notebook: Any) -> str:
     return (told or "python").lower()
 
 
-def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
+def _cell(cell: Any, reading: Reading, language: str, leave_out: frozenset[str] = frozenset()) -> list[Block]:
     tags = set(cell.get("metadata", {}).get("tags", ()))
     source = _source(cell)
-    if tags & NO_CELL:
+    if tags & NO_CELL or cell["cell_type"] in leave_out:
         return []
     match cell["cell_type"]:
         case "markdown" | "heading":
@@ -120,10 +131,17 @@ def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
             return reading.attempt(lambda: _raw(source, cell.get("metadata", {}), reading), source)
         case "code":
             blocks: list[Block] = []
-            if source.strip() and not tags & NO_INPUT:
-                blocks.append(Verbatim(visible(source.expandtabs(4)).strip("\n"), "input", language))
-            if not tags & NO_OUTPUT:
-                blocks += read_outputs(cell.get("outputs") or (), reading)
+            removed = (
+                tags & NO_INPUT
+                or "input" in leave_out
+                or cell.get("metadata", {}).get("transient", {}).get("remove_source")
+            )
+            if source.strip() and not removed:
+                text = visible(source.expandtabs(4)).strip("\n")
+                blocks.append(Verbatim(text, "input", language, bool(tags & FOLDED_INPUT)))
+            if not tags & NO_OUTPUT and "output" not in leave_out:
+                shown = read_outputs(cell.get("outputs") or (), reading)
+                blocks += [Folded("Output", shown)] if shown and tags & FOLDED_OUTPUT else shown
             return blocks
     told = CannotShow(f"a cell of the kind {cell['cell_type']}; make it Markdown or code", "cell", text=source)
 
@@ -208,6 +226,15 @@ def number_blocks(cells: list[ReportCell], chapter: str = "") -> None:
             word = "Table" if isinstance(block, Grid) else "Figure"
             counts[word] += 1
             block.number = f"{word} {chapter}{counts[word]}"
+
+
+def mark_leads(cells: list[ReportCell]) -> None:
+    """Mark the paragraphs that introduce what follows: those that end in a colon, and a short one before code."""
+    blocks = [(block, bool(cell.anchor)) for cell in cells for block in cell.blocks]
+    for (block, _), (after, by_code) in pairwise(blocks):
+        if isinstance(block, Paragraph) and not isinstance(after, Paragraph | Heading):
+            words = plain(block.children).rstrip()
+            block.leads = (words.endswith(":") or by_code) and len(words) <= LONGEST_LEAD
 
 
 def collect_anchors(report: Report, reading: Reading) -> None:

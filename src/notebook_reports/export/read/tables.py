@@ -14,19 +14,26 @@ _NUMBER = re.compile(
     re.IGNORECASE,
 )
 
+_DECIMAL = re.compile(r"(?P<before>[+−-]?\d+)(?P<behind>\.\d+)?(?: \S+)?")
+
 
 def from_data(data: dict[str, Any]) -> Grid:
     """The table a `notebook_reports.display.Table` leaves in an output."""
     columns, align = data["columns"], data["align"]
     marks = data.get("marks") or [""] * len(data["rows"])
     cells = [Cell(read_inline(text), x, 0, align=align[x], head=True) for x, text in enumerate(columns)]
+    above: list[str] = []
     for y, (row, mark) in enumerate(zip(data["rows"], marks, strict=True), start=1):
         for x, text in enumerate(row):
             last = x == len(row) - 1
-            cells.append(Cell(read_inline(text), x, y, align=align[x], mark=mark if last else ""))
+            again = x < data.get("groups", 0) and row[: x + 1] == above[: x + 1]
+            cells.append(Cell(read_inline(text), x, y, align=align[x], mark=mark if last else "", again=again))
+        above = row
     notes = [read_inline(note) for note in data.get("notes", ())]
     caption = read_inline(data.get("caption", ""))
-    return limited(Grid(cells, len(columns), len(data["rows"]) + 1, 1, caption, notes))
+    grid = Grid(cells, len(columns), len(data["rows"]) + 1, 1, caption, notes)
+    align_points(grid)
+    return limited(grid)
 
 
 def grid_of(rows: list[list[Cell]], head_rows: int) -> Grid:
@@ -58,6 +65,22 @@ def align_numbers(grid: Grid) -> None:
             cell.align = "right" if numeric and (in_head or not cell.head) else "left"
     for cell in grid.cells:
         cell.align = cell.align or ("center" if cell.head and cell.y < grid.head_rows else "left")
+    align_points(grid)
+
+
+def align_points(grid: Grid) -> None:
+    """Let the decimal points of a column to the right stand below each other, where that makes it little wider."""
+    for x in range(grid.columns):
+        body = [c for c in grid.cells if c.x == x and c.colspan == 1 and not c.head and c.align == "right"]
+        numbers = [(c, found) for c in body if (found := _DECIMAL.fullmatch(plain(c.children).strip()))]
+        places = [len(found["behind"] or "") for _, found in numbers]
+        before = [len(found["before"]) for _, found in numbers]
+        wide = [b + p for b, p in zip(before, places, strict=True)]
+        if not numbers or len(set(places)) == 1 or max(before) + max(places) > 1.5 * max(wide) + 1:
+            continue
+        for (cell, _), given in zip(numbers, places, strict=True):
+            lacks = max(places) - given
+            cell.pad = "" if not lacks else "0" * lacks if given else "." + "0" * (lacks - 1)
 
 
 def limited(grid: Grid) -> Grid:

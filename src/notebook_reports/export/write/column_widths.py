@@ -66,7 +66,7 @@ def deciding(grid: Grid) -> Deciding:
 
 def extent(cell: Cell) -> Range:
     """The width of a cell on one line in points: the least and the most by estimate, equal for text."""
-    low, high = _ems(cell.children)
+    low, high = (ems + _letters(cell.pad) for ems in _ems(cell.children))
     size, mark = SIZE * (_BOLD if cell.head else 1), SIZE * bool(cell.mark)
     return size * low + mark, size * high + mark
 
@@ -83,8 +83,8 @@ def breakable_words(text: str) -> list[str]:
     return _WORDS.split(text)
 
 
-def height(grid: Grid) -> float:
-    """The height of a table on a page in points, by estimate: its columns share the room by what they hold."""
+def row_heights(grid: Grid) -> list[float]:
+    """The heights of the rows on a page in points, by estimate: the columns share the room by what they hold."""
     needs = [_written(cell) for cell in grid.cells]
     widths = [0.0] * grid.columns
     for cell, need in zip(grid.cells, needs, strict=True):
@@ -95,7 +95,7 @@ def height(grid: Grid) -> float:
     for cell, need in zip(grid.cells, needs, strict=True):
         room = fsum(widths[cell.x : cell.x + cell.colspan]) * share - SIZE
         lines[cell.y] = max(lines[cell.y], ceil(need / max(room, 4 * SIZE)))
-    return sum(count * LINE + GAP for count in lines)
+    return [count * LINE + GAP for count in lines]
 
 
 def _written(cell: Cell) -> float:
@@ -152,4 +152,4 @@ def _letters(text: str) -> float:
 def _shape(cell: Cell) -> str:
     """Equal for cells that are equally wide, whatever their digits: these are all equally wide."""
     kinds = "".join(type(node).__name__ for node in cell.children)
-    return f"{cell.head} {cell.mark} {kinds} {re.sub('[0-9]', '0', plain(cell.children))}"
+    return f"{cell.head} {cell.mark} {kinds} {re.sub('[0-9]', '0', plain(cell.children))}{cell.pad}"

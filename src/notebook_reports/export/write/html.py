@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from html import escape
 
 from notebook_reports.export import scripts
-from notebook_reports.export.formulas import as_mathml
+from notebook_reports.export.formulas import as_mathml, as_text
 from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
     Alert,
@@ -20,6 +20,7 @@ from notebook_reports.export.model import (
     Definitions,
     Display,
     FigureBlock,
+    Folded,
     Grid,
     Heading,
     Inline,
@@ -48,15 +49,18 @@ from notebook_reports.export.write.inside_page import inside_page
 
 _STYLES = {"emph": "em", "strong": "strong", "strike": "s", "underline": "u", "sub": "sub", "super": "sup"}
 _MARKS = {"good": "✓", "note": "◆", "bad": "✗"}
+LONG_FORMULA = 32
+"""Characters of a formula's text from which on it may be wider than a phone, and scrolls by itself there."""
 _ROLES = {"stderr": "Warning output", "error": "Error"}
 
 
 @dataclass
 class HtmlWriter:
-    """Writes blocks as HTML. name: of the notebook. notes: the footnotes met so far. scripts: those that
-    what was written so far needs, each once."""
+    """Writes blocks as HTML. name: of the notebook. folded: code is shown to who opens it. notes: the footnotes met so
+    far. scripts: those that what was written so far needs, each once."""
 
     name: str = ""
+    folded: bool = False
     notes: list[Note] = field(default_factory=list)
     drawings: int = 0
     scripts: dict[str, None] = field(default_factory=dict)
@@ -93,6 +97,8 @@ class HtmlWriter:
                 return f"<blockquote>{self.blocks(blocks)}</blockquote>"
             case Alert(kind, blocks):
                 return f'<div class="alert {kind}" role="note">{self.blocks(blocks)}</div>'
+            case Folded(words, blocks):
+                return _fold(escape(words), self.blocks(blocks))
             case Mend():
                 return self.mend(block)
             case ThematicBreak():
@@ -113,6 +119,10 @@ class HtmlWriter:
         instead = f"<noscript>{self.blocks(block.instead)}</noscript>" if block.instead else ""
         return f'<div class="live" data-mime="{escape(block.mime)}">{block.markup}{data}</div>{instead}'
 
+    def use(self, *scripts: str) -> None:
+        """Put scripts of the page before those of its data."""
+        self.scripts = {**dict.fromkeys(script for script in scripts if script), **self.scripts}
+
     def ending(self) -> str:
         """The scripts of the page, at its end."""
         return "".join(f"<script>{script}</script>\n" for script in self.scripts)
@@ -124,7 +134,9 @@ class HtmlWriter:
     def heading(self, heading: Heading) -> str:
         tag = f"h{min(heading.level + 1, 6)}"
         number = f'<span class="number">{heading.number}</span> ' if heading.number else ""
-        return f'<{tag} id="{escape(heading.anchor)}">{number}{self.inline(heading.children)}</{tag}>'
+        anchor = escape(heading.anchor)
+        link = f'<a class="anchor" href="#{anchor}" aria-label="Link to this section"></a>' if anchor else ""
+        return f'<{tag} id="{anchor}">{number}{self.inline(heading.children)}{link}</{tag}>'
 
     def display(self, block: Display) -> str:
         anchor = f' id="{escape(block.anchor)}"' if block.anchor else ""
@@ -136,7 +148,11 @@ class HtmlWriter:
         cut = ((kind, escape(text, quote=False)) for kind, text in runs(block.text, block.language))
         body = "".join(f'<span class="{kind}">{text}</span>' if kind else text for kind, text in cut)
         told = f' role="group" aria-label="{_ROLES[block.role]}"' if block.role in _ROLES else ""
-        return f'<pre class="{block.role}"{told}><code>{body}</code></pre>'
+        shown = f'<pre class="{block.role}"{told}><code>{body}</code></pre>'
+        if block.role != "input" or not (self.folded or block.folded):
+            return shown
+        lines = block.text.count("\n") + 1
+        return _fold(f"Code<small>, {lines} line{'s' if lines > 1 else ''}</small>", shown)
 
     def item(self, item: ListItem, tight: bool) -> str:
         checked = " checked" if item.checked else ""
@@ -168,11 +184,11 @@ class HtmlWriter:
         tag = "th" if cell.head else "td"
         spans = "".join(f' {k}="{v}"' for k, v in (("colspan", cell.colspan), ("rowspan", cell.rowspan)) if v > 1)
         scope = f' scope="{("colgroup" if cell.colspan > 1 else "col") if in_head else "row"}"' if cell.head else ""
-        classes = [c for c in (cell.align if cell.align != "left" else "", cell.mark) if c]
+        classes = [c for c in (cell.align if cell.align != "left" else "", cell.mark, "again" * cell.again) if c]
         if len(plain(cell.children)) > 28:
             classes.append("long")
         css = f' class="{" ".join(classes)}"' if classes else ""
-        css += _colours(cell.ink, cell.ground)
+        css += _looks(cell)
         symbol = f'<span class="symbol">{_MARKS[cell.mark]}</span> ' if cell.mark else ""
         return f"<{tag}{spans}{scope}{css}>{symbol}{self.inline(cell.children)}</{tag}>"
 
@@ -196,7 +212,8 @@ class HtmlWriter:
             case Code(text):
                 return f"<code>{escape(text, quote=False)}</code>"
             case Math(latex):
-                return as_mathml(latex, False)
+                shown = as_mathml(latex, False)
+                return f'<span class="wide">{shown}</span>' if len(as_text(latex)) > LONG_FORMULA else shown
             case Styled(style, children):
                 return f"<{_STYLES[style]}>{self.inline(children)}</{_STYLES[style]}>"
             case Coloured(children, ink, ground):
@@ -280,6 +297,18 @@ class HtmlWriter:
         width = f' style="width:{picture.share * 100:g}%"' if picture.share else width
         data = base64.b64encode(picture.data).decode()
         return f'<img src="data:{MIME[picture.kind]};base64,{data}" alt="{alt}"{width}>'
+
+
+def _looks(cell: Cell) -> str:
+    """The style of a cell: its colours, and the room behind a number for the decimal points of its column."""
+    digits, point = cell.pad.count("0"), 0.5 * cell.pad.count(".")
+    pad = f"padding-right:calc(.6rem + {digits + point:g}ch)" if cell.pad else ""
+    colours = _colours(cell.ink, cell.ground)
+    return colours if not pad else f'{colours[:-1]};{pad}"' if colours else f' style="{pad}"'
+
+
+def _fold(words: str, body: str) -> str:
+    return f'<details class="fold"><summary>{words}</summary>{body}</details>'
 
 
 def _colours(ink: str, ground: str) -> str:

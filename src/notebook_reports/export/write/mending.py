@@ -23,6 +23,7 @@ from notebook_reports.export.model import (
     rewrite,
     walk,
 )
+from notebook_reports.export.write.arrangement import Arrangement, to_float
 from notebook_reports.export.write.glyphs import absent_in, name_of, note_absent
 from notebook_reports.export.write.typst import file_digest
 from notebook_reports.export.write.typst_engine import (
@@ -69,20 +70,20 @@ def mend_formulas(report: Report, form: str) -> None:
     rewrite(report.cells, mended)
 
 
-def compile_mending(report: Report, write: Callable[[frozenset[str]], Written]) -> bytes:
+def compile_mending(report: Report, write: Callable[[Arrangement], Written]) -> bytes:
     """Compile the report; whatever the engine cannot show is mended in it. Raises TypstFailed where that fails."""
-    turned: frozenset[str] = frozenset()
+    layout = Arrangement()
     failed: TypstFailed | None = None
     for _ in range(MOST_PASSES):
-        source, files, grids = write(turned)
+        source, files, grids = write(layout)
         try:
-            pdf = compile_pdf(source, files)
+            compiled = compile_pdf(source, files)
         except TypstFailed as error:
             failed = error
             error.source, error.files = source, files
-            more = {w.id for w in error.wide if w.id in grids and w.share >= LANDSCAPE_FROM / 100} - turned
-            turned |= more
-            narrow = [w for w in error.wide if w.id not in turned or (w.id in turned and w.id not in more)]
+            more = {w.id for w in error.wide if w.id in grids and w.share >= LANDSCAPE_FROM / 100} - layout.turned
+            narrow = [w for w in error.wide if w.id not in more]
+            layout = Arrangement(layout.turned | more, layout.floating)
             changed = [_narrowed(report, w, grids) for w in narrow]
             changed.append(bool(more))
             if not error.wide:
@@ -91,11 +92,12 @@ def compile_mending(report: Report, write: Callable[[frozenset[str]], Written]) 
                 raise
             number_mends(report)
             continue
-        if _name_absent(report):
-            number_mends(report)
-            source, files, grids = write(turned)
-            return compile_pdf(source, files)
-        return pdf
+        floating = to_float(compiled.places, layout.floating)
+        named = _name_absent(report)
+        if not floating and not named:
+            return compiled.pdf
+        number_mends(report)
+        layout = Arrangement(layout.turned, layout.floating | floating)
     raise failed or TypstFailed([])
 
 

@@ -29,6 +29,15 @@ class TextRun:
 
 
 @dataclass(frozen=True)
+class Mark:
+    """Something that stands on a page, from `low` to `high`, in points from the bottom."""
+
+    page: int
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
 class _Font:
     characters: dict[int, str]
     widths: dict[int, float]
@@ -55,6 +64,17 @@ class PdfText:
 
     def runs(self) -> Iterator[TextRun]:
         """Every run of text, page by page."""
+        return (found for found in self._found() if isinstance(found, TextRun))
+
+    def marks(self) -> Iterator[Mark]:
+        """What stands on the pages: runs of text, lines, areas and pictures."""
+        for found in self._found():
+            if isinstance(found, Mark):
+                yield found
+            elif found.text.strip():
+                yield Mark(found.page, found.y - 0.25 * found.size, found.y + 0.75 * found.size)
+
+    def _found(self) -> Iterator[TextRun | Mark]:
         for place, page in enumerate(self.pages, start=1):
             body = self._objects[page]
             content = re.search(rb"/Contents (\d+) 0 R", body)
@@ -99,8 +119,9 @@ class PdfText:
         page: int,
         drawn: bool,
         depth: int,
-    ) -> Iterator[TextRun]:
+    ) -> Iterator[TextRun | Mark]:
         stack: list[Matrix] = []
+        path: list[float] = []
         for found in _OPERATORS.finditer(content):
             match found.lastgroup:
                 case "save":
@@ -111,9 +132,19 @@ class PdfText:
                     matrix = _times(_matrix(found["moved"]), matrix)
                 case "text":
                     yield from self._text(found["text"], resources["Font"], matrix, page, drawn)
+                case "points" | "corner":
+                    path += _heights(found[found.lastgroup], matrix, found.lastgroup == "corner")
+                case "painted":
+                    if path:
+                        yield Mark(page, min(path), max(path))
+                    path = []
+                case "clipped":
+                    path = []
                 case "drawing" if depth < 12:
                     number = resources["XObject"].get(found["drawing"].decode(), -1)
                     body = self._objects.get(number, b"")
+                    if b"/Subtype/Image" in body:
+                        yield Mark(page, *sorted((matrix[5], matrix[3] + matrix[5])))
                     if b"/Subtype/Form" in body:
                         own = re.search(rb"/Matrix\s*\[([^\]]*)\]", body)
                         inner = _times(_matrix(own[1]), matrix) if own else matrix
@@ -155,6 +186,15 @@ class PdfText:
                     yield TextRun(page, text, x0, end, after, y, size * abs(whole[3]), drawn)
 
 
+def _heights(operands: bytes, matrix: Matrix, corner: bool) -> list[float]:
+    """Where points lie above the bottom of the page: x y of some, or x y width height of a rectangle."""
+    values = [float(v) for v in operands.split()]
+    if corner:
+        x, y, width, height = values
+        values = [x, y, x + width, y + height, x, y + height, x + width, y]
+    return [matrix[1] * x + matrix[3] * y + matrix[5] for x, y in zip(values[::2], values[1::2], strict=True)]
+
+
 def _number(pattern: bytes, text: bytes) -> int:
     found = re.search(pattern, text, re.DOTALL)
     if found is None:
@@ -171,7 +211,9 @@ _NUMBERS = rb"(?:-?[\d.]+\s+){6}"
 _STRING = rb"\((?:\\.|[^\\()]|\((?:\\.|[^\\()]|\((?:\\.|[^\\()])*\))*\))*\)"
 _OPERATORS = re.compile(
     rb"(?P<text>\bBT(?=[\s/]).*?\sET\b)|(?P<moved>" + _NUMBERS + rb"cm\b)|(?P<drawing>(?<=/)[^\s/]+(?=\s+Do\b))"
-    rb"|(?P<save>(?<![^\s])q(?=\s))|(?P<restore>(?<![^\s])Q(?=\s|$))",
+    rb"|(?P<save>(?<![^\s])q(?=\s))|(?P<restore>(?<![^\s])Q(?=\s|$))"
+    rb"|(?P<corner>(?:-?[\d.]+\s+){4})re(?=\s)|(?P<points>(?:(?:-?[\d.]+\s+){2}){1,3})[mlc](?=\s)"
+    rb"|(?P<painted>(?<![^\s])[fFSsBb]\*?(?=\s))|(?P<clipped>(?<![^\s])n(?=\s))",
     re.DOTALL,
 )
 _IN_TEXT = re.compile(
@@ -245,51 +287,4 @@ def _widths(font: bytes) -> dict[int, float]:
             i += 3
         else:
             break
-    return found
-
-
-def in_the_text(pages: PdfText) -> list[TextRun]:
-    """The runs without heads and page numbers, and without words in pictures."""
-    return [
-        run
-        for run in pages.runs()
-        if not run.drawn and run.y < pages.sizes[run.page - 1][1] - MARGIN_TOP and run.y > MARGIN_BOTTOM - _SLACK
-    ]
-
-
-def text_of(runs: list[TextRun]) -> str:
-    """The runs as text: on one line without a gap they are one word, and a word divided at a line's end is whole."""
-    text, last = "", None
-    for run in runs:
-        near = last and last.page == run.page and abs(last.y - run.y) < 0.5 * run.size
-        if text.endswith("\u00ad") and not near:
-            text = text[:-1]
-        elif last and not (near and abs(run.x0 - last.end) < 0.12 * run.size):
-            text += "\n" if not near else " "
-        text += run.text
-        last = run
-    return text
-
-
-MARGIN_X, MARGIN_TOP, MARGIN_BOTTOM = 2.5 * 72 / 2.54, 2.7 * 72 / 2.54, 2.5 * 72 / 2.54
-"""Points between the edge of a page and its text: the margins of ``report.typ``."""
-_SLACK = 5.0
-"""Points that a letter may stand out: punctuation and slanted letters do."""
-_HANGING = frozenset("、。，．：；！？）］｝」』】")
-"""Marks of which half is empty."""
-
-
-def outside(pages: PdfText) -> list[TextRun]:
-    """The runs that leave the text block of their page; heads and page numbers, and words in pictures, do not count."""
-    found = []
-    for run in pages.runs():
-        width, height = pages.sizes[run.page - 1]
-        if run.drawn or not run.text.strip():
-            continue
-        head = run.y > height - MARGIN_TOP or (run.y < MARGIN_BOTTOM - _SLACK and re.fullmatch(r"[\d /]+", run.text))
-        slack = 0.7 * run.size if run.text.rstrip()[-1:] in _HANGING else _SLACK
-        beside = run.x0 < MARGIN_X - _SLACK or run.x1 > width - MARGIN_X + slack
-        below = run.y < MARGIN_BOTTOM - _SLACK
-        if beside or (below and not head):
-            found.append(run)
     return found

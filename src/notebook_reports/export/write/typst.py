@@ -21,6 +21,7 @@ from notebook_reports.export.model import (
     Definitions,
     Display,
     FigureBlock,
+    Folded,
     Grid,
     Heading,
     Inline,
@@ -45,13 +46,15 @@ from notebook_reports.export.model import (
 from notebook_reports.export.read.css import readable_on
 from notebook_reports.export.read.notebook import relative_address
 from notebook_reports.export.read.picture_sizes import pixel_width
+from notebook_reports.export.write.arrangement import AS_IT_COMES, Arrangement
 from notebook_reports.export.write.breaking import formula_pieces as line_ends
 from notebook_reports.export.write.column_widths import (
+    LINE,
     TEXT_HEIGHT,
     TEXT_WIDTH,
     breakable_words,
     deciding,
-    height,
+    row_heights,
     unbroken,
 )
 from notebook_reports.export.write.glyphs import latex_without_absent, without_absent
@@ -72,7 +75,7 @@ STYLES = ("emph", "strong", "strike", "underline", "sub", "super")
 IMPORT = '#import "report.typ": ' + ", ".join(
     (
         *("report", "book", "part", "chapter", "section", "landscape"),
-        *("m", "long-m", "small-m", "code", "inner", "outer", "page-of", "task", "quoted", "inline-picture"),
+        *("m", "long-m", "small-m", "code", "inner", "outer", "page-of", "task", "quoted", "lead", "inline-picture"),
         *("listing", "formula", "drawing", "data-table", "thematic-break", "marked", "brk", "tinted", "alert"),
         *("mend", "mend-words", "mend-remark", "mend-list"),
         *("probe", "probe-code", *(f"probe-{style}" for style in STYLES)),
@@ -83,6 +86,10 @@ LONG_FORMULA = 40
 """Characters of a formula's text from which on it may need more than one line of a column."""
 BREAKABLE_FROM = 0.3 * TEXT_HEIGHT
 """Points of height, by estimate, from which on a table may go on over pages."""
+TALLEST_ROW = 0.3 * TEXT_HEIGHT
+"""Points of height, by estimate, up to which the rows of a table are not divided between pages."""
+KEPT_UP_TO = 0.17 * TEXT_HEIGHT
+"""Points of height, by estimate, up to which code and its output stay together."""
 
 
 @dataclass
@@ -91,8 +98,8 @@ class TypstWriter:
 
     name: of the notebook. prefix: what its anchors begin with, so that several notebooks fit in one book.
     chapters: the anchors of each notebook of the book by name; None outside a book, where a link to another notebook
-    leads to its own PDF beside this one. turned: the tables that get a landscape page, by name, count and content
-    ("a/b 3 1f0c"). grids: the tables written, by that name.
+    leads to its own PDF beside this one. layout: what is known of the pages; it names tables and figures by notebook,
+    count and content ("a/b 3 1f0c"). grids: the tables written, by that name.
     naming: characters known to be in no font are written by their names.
     probing: write what is only measured. The engine looks for a measured element in the page and, having found it, lays
     all out anew; so what is measured equals nothing on the page, but is as wide.
@@ -101,12 +108,13 @@ class TypstWriter:
     name: str = ""
     prefix: str = ""
     chapters: dict[str, set[str]] | None = None
-    turned: frozenset[str] = frozenset()
+    layout: Arrangement = AS_IT_COMES
     naming: bool = False
     files: dict[str, bytes] = field(default_factory=dict)
     grids: dict[str, Grid] = field(default_factory=dict)
     cell: int = 0
     tables: int = 0
+    figures: int = 0
     in_table: bool = False
     probing: bool = False
 
@@ -114,8 +122,9 @@ class TypstWriter:
         """The source of one cell of the notebook, its anchor on its first block."""
         self.cell = cell.number
         first, *rest = (self.block(block) for block in cell.blocks)
-        if rest and isinstance(cell.blocks[0], Verbatim):
-            first = self.listing(cell.blocks[0], keep=True)
+        code = cell.blocks[0]
+        if rest and isinstance(code, Verbatim):
+            first = self.listing(code, keep=_together(code, cell.blocks[1]))
         if cell.anchor and (isinstance(cell.blocks[0], Paragraph) or first.startswith("#landscape")):
             first = self.node(Anchor(cell.anchor)) + first
         elif cell.anchor and not isinstance(cell.blocks[0], Heading):
@@ -128,8 +137,8 @@ class TypstWriter:
 
     def block(self, block: Block) -> str:
         match block:
-            case Paragraph(children):
-                return self.inline(children)
+            case Paragraph(children, leads):
+                return f"#lead[{self.inline(children)}]" if leads else self.inline(children)
             case Heading(level, children, anchor, number):
                 return f"#section({level}, {typst_string(number)}, {self.label(anchor)})[{self.inline(children)}]"
             case Display():
@@ -145,22 +154,23 @@ class TypstWriter:
                 return f"#quoted[{self.blocks(blocks)}]"
             case Alert(kind, blocks):
                 return f"#alert({typst_string(kind)})[{self.blocks(blocks)}]"
+            case Folded(_, blocks):
+                return self.blocks(blocks)
             case Mend():
                 return self.mend(block)
             case ThematicBreak():
                 return "#thematic-break()"
             case Grid():
                 return self.grid(block)
-            case FigureBlock(picture, caption, number):
-                told = f"[{self.inline(caption)}]" if caption else "none"
-                return f"#drawing({self.picture(picture)}, {told}, {typst_string(number)})"
+            case FigureBlock():
+                return self.figure(block)
             case Live():
                 return self.blocks(block.instead)
         raise TypeError(f"no Typst form for {type(block).__name__}")
 
     def listing(self, block: Verbatim, keep: bool = False) -> str:
-        """Preformatted text, cut where its colours change. keep: a short one stays on the page of what follows it."""
-        kept = ", keep: true" if keep and block.text.count("\n") < 15 else ""
+        """Preformatted text, cut where its colours change. keep: it stays on the page of what follows it."""
+        kept = ", keep: true" if keep else ""
         text = self.shown(block.text).replace("\u200b", "")
         rows = ""
         if block.language or any(_stuck(line) for line in text.split("\n")):
@@ -324,6 +334,17 @@ class TypstWriter:
         where = self.where("a formula", file_digest(block.latex))
         return f"#formula({where}, {whole}, ({broken}), {label}, {anchor}{small})"
 
+    def figure(self, figure: FigureBlock) -> str:
+        """A picture on its own lines; one with a caption may float."""
+        picture = self.picture(figure.picture)
+        if not figure.caption:
+            return f"#drawing({picture}, none, {typst_string(figure.number)})"
+        self.figures += 1
+        id = f"{self.name} {self.figures} {file_digest(picture)}"
+        floats = ", floats: true" if id in self.layout.floating else ""
+        told = f"[{self.inline(figure.caption)}], {typst_string(figure.number)}"
+        return f"#drawing({picture}, {told}, id: {typst_string(id)}{floats})"
+
     def grid(self, grid: Grid) -> str:
         self.in_table = True
         cells, measured = ",\n".join(self.table_cell(cell) for cell in grid.cells), self.measured(grid)
@@ -335,10 +356,12 @@ class TypstWriter:
         self.grids[id] = grid
         where = typst_string(f"{self.cell}|{grid.number or 'a table'}|{id}")
         size = f"{grid.rows}, {grid.head_rows}"
-        short = "true" if grid.rows <= 12 and height(grid) < BREAKABLE_FROM else "false"
-        body = f"(\n{cells},\n), {measured}, short: {short}"
+        rows = row_heights(grid)
+        short = "true" if grid.rows <= 12 and sum(rows) < BREAKABLE_FROM else "false"
+        whole = "true" if max(rows, default=0) < TALLEST_ROW else "false"
+        body = f"(\n{cells},\n), {measured}, short: {short}, whole: {whole}"
         table = f"#data-table({where}, {size}, {caption}, {typst_string(grid.number)}, ({notes}), {body})"
-        return f"#landscape[{table}]" if id in self.turned else table
+        return f"#landscape[{table}]" if id in self.layout.turned else table
 
     def measured(self, grid: Grid) -> str:
         """What the engine measures to know the columns: for each its widest cells, and pieces that no line end divides;
@@ -358,7 +381,8 @@ class TypstWriter:
         return f"({', '.join(columns)},), ({wide})"
 
     def probe(self, cell: Cell) -> str:
-        body = f"[{self.inline(cell.children)}]"
+        pad = f"#{typst_string(cell.pad)};" if cell.pad else ""
+        body = f"[{self.inline(cell.children)}{pad}]"
         if cell.mark:
             return f"marked({typst_string(cell.mark)}, {body})"
         return f"probe-strong({body})" if cell.head else body
@@ -375,7 +399,8 @@ class TypstWriter:
         if cell.ground:
             optional += f", ground: rgb({typst_string(cell.ground)})"
         head = "true" if cell.head else "false"
-        body = self.inline(cell.children)
+        optional += ", again: true" if cell.again else ""
+        body = self.inline(cell.children) + (f"#hide({typst_string(cell.pad)});" if cell.pad else "")
         return f"(x: {cell.x}, y: {cell.y}, align: {cell.align}, head: {head}{optional}, body: [{body}])"
 
     def _solid(self, cell: Cell) -> str:
@@ -419,6 +444,22 @@ class TypstWriter:
 def file_digest(text: str) -> str:
     """What a piece of a report is called between the engine and us: the same for the same content."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _together(code: Verbatim, output: Block) -> bool:
+    """Do code and its output stay on one page? They may part where the two would leave much of a page empty."""
+    match output:
+        case Display():
+            room = 3 * LINE
+        case Grid():
+            room = sum(row_heights(output)) + 3 * LINE
+        case Verbatim():
+            room = 2 * LINE
+        case FigureBlock():
+            return False
+        case _:
+            room = LINE
+    return room + LINE * code.text.count("\n") < KEPT_UP_TO
 
 
 def _stuck(line: str) -> bool:

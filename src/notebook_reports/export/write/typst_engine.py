@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from notebook_reports.errors import PressError
+from notebook_reports.export.write.arrangement import Arrangement, Place, to_float
 from notebook_reports.export.write.more_fonts import more_fonts
 from notebook_reports.project import runtime
 from notebook_reports.run.surroundings import EPOCH
@@ -72,8 +73,16 @@ def fonts() -> Any:
     return typst.Fonts(include_system_fonts=False, font_paths=[str(folder)])
 
 
-def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
-    """Compile main.typ beside its files to PDF/A-2a and PDF/UA-1. Raises TypstFailed, with all that is too wide."""
+@dataclass(frozen=True)
+class Compiled:
+    """pdf: PDF/A-2a and PDF/UA-1. places: of the figures that have a caption."""
+
+    pdf: bytes
+    places: tuple[Place, ...]
+
+
+def compile_pdf(source: str, files: dict[str, bytes]) -> Compiled:
+    """Compile main.typ beside its files. Raises TypstFailed, with all that is too wide."""
     import typst
 
     with tempfile.TemporaryDirectory(prefix="pdf-", dir=runtime.folder()) as folder:
@@ -88,16 +97,16 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> bytes:
                 str(main), root=folder, font_paths=fonts(), package_path=nowhere, package_cache_path=nowhere
             )
             pdf, warnings = compiler.compile_with_warnings(timestamp=int(EPOCH), pdf_standards=list(STANDARDS))
-            noted = json.loads(compiler.query("<too-wide>", field="value"))
+            noted = [note.split("|") for note in json.loads(compiler.query("<noted>", field="value"))]
         except typst.TypstError as error:
             raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
     assert isinstance(pdf, bytes), "a PDF is one piece"
-    wide = [TooWide(int(cell), what, id, int(share) / 100) for cell, what, id, share in (w.split("|") for w in noted)]
+    wide = [TooWide(int(n[1]), n[2], n[3], int(n[4]) / 100) for n in noted if n[0] == "wide"]
     found = [d for w in warnings for d in _diagnostics(w.diagnostic, w.message)]
     found += [Diagnostic(f"loopbook|{w.cell}|{w.what}|{w.id}|{w.share * 100:.0f}", None) for w in dict.fromkeys(wide)]
     if found:
         raise TypstFailed(found, list(dict.fromkeys(wide)))
-    return pdf
+    return Compiled(pdf, tuple(Place(n[1], int(n[2]), float(n[3])) for n in noted if n[0] == "place"))
 
 
 def _diagnostics(text: str, message: str) -> list[Diagnostic]:
@@ -117,28 +126,38 @@ LANDSCAPE_FROM = 40
 """The share, in percent, of its size at which a table fits a portrait page, from which on it fits a landscape one."""
 
 
+MOST_PASSES = 8
+"""So often is a report set to let its figures float; what then still begins a page stays there."""
+
+
 _wide: set[str] = set()
 """The tables that this process found too wide; by content, so that a book need not find them again."""
 
 
-def compile_turning(write: Callable[[frozenset[str]], tuple[str, dict[str, bytes]]]) -> bytes:
-    """Compile what `write` gives for a set of turned tables.
+def compile_settled(write: Callable[[Arrangement], tuple[str, dict[str, bytes]]]) -> bytes:
+    """Compile what `write` gives for a layout, until nothing on the pages asks for another one.
 
-    A table too wide for the page is turned, onto a landscape page, and all is written and compiled again.
     Raises TypstFailed, with the last source and files as its `source` and `files`.
     """
-    turned = frozenset(_wide)
+    layout = Arrangement(frozenset(_wide))
+    passes = 0
     while True:
-        source, files = write(turned)
+        source, files = write(layout)
         try:
-            return compile_pdf(source, files)
+            compiled = compile_pdf(source, files)
         except TypstFailed as error:
-            more = {w.id for w in error.wide if " " in w.id and w.share >= LANDSCAPE_FROM / 100} - turned
+            more = {w.id for w in error.wide if " " in w.id and w.share >= LANDSCAPE_FROM / 100} - layout.turned
             if not more:
                 error.source, error.files = source, files
                 raise
-            turned |= more
+            layout = Arrangement(layout.turned | more, layout.floating)
             _wide.update(more)
+            continue
+        passes += 1
+        floating = to_float(compiled.places, layout.floating)
+        if not floating or passes == MOST_PASSES:
+            return compiled.pdf
+        layout = Arrangement(layout.turned, layout.floating | floating)
 
 
 def explain(diagnostic: Diagnostic, cell_at: Callable[[int | None, str], int | None]) -> tuple[int | None, str]:
