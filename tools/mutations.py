@@ -156,7 +156,8 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
         yield 0, len(text), "down" if text == "up" else "up"
         return
     names = (
-        r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+        r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)"
+        r"\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
     )
     skipped = [
         m.span() for m in re.finditer(rf"{names}|\\[a-zA-Z]+|\{{\w+[^}}]*\}}|_\{{[^}}]*\}}|_\w+|\^\{{?-?\d+\}}?", text)
