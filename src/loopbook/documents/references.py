@@ -1,7 +1,7 @@
 """References of a document resolved against what its numbered things are: figures by transcription, equations derived.
 
-``cited.toml`` in a document's folder says what stands under each figure's number, in our words. A reference in a printed
-or corrected text is looked up there, and holds where what is found has to do with what the sentence speaks of.
+``cited.toml`` in a document's folder says what stands under each figure's number, in our words. A reference in a
+printed or corrected text is looked up there, and holds where what is found is what the sentence speaks of.
 """
 
 import re
