@@ -176,20 +176,28 @@ class Loop:
             return StepResponse(self, source, until, *self._answer(source, until))
         until = self.settling_horizon()
         final = self.final_values(source)
+        signals = self._answer(source, until)
         for _ in range(PROLONGED):
-            signals = self._answer(source, until)
-            if all(_at_rest(signal, end) for signal, end in zip(signals, final, strict=True)):
+            left = _left(signals, final)
+            if left <= AT_REST:
                 break
-            until *= 2  # modes of one speed die out later than each of them alone
+            longer = self._answer(source, 2 * until)  # modes of one speed die out later than each of them alone
+            if _left(longer, final) > left / 4:  # what waiting does not take away is rounding
+                break
+            signals, until = longer, 2 * until
         return StepResponse(self, source, until, *signals)
 
     def _answer(self, source: str, horizon: float) -> tuple[Signal, Signal]:
         return closed_loop_step(self.process, self.polynomials, source, horizon, self.path)
 
 
-def _at_rest(signal: Signal, final: float) -> bool:
-    left = abs(float(signal(signal.end)) - final)
-    return left <= AT_REST * max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
+def _left(signals: Sequence[Signal], finals: Sequence[float]) -> float:
+    """How far from its final value a signal ends, as a part of its size: the worst of them."""
+    left = 0.0
+    for signal, final in zip(signals, finals, strict=True):
+        size = max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
+        left = max(left, abs(float(signal(signal.end)) - final) / size if size else 0.0)
+    return left
 
 
 def _without_common_integrators(*rows: Sequence[float]) -> list[tuple[float, ...]]:

@@ -131,7 +131,7 @@ def margins(loop: LoopTransfer) -> Margins:
         gain=min(above, default=np.inf),
         gain_low=max(below, default=0.0),
         phase=min((c.phase_margin for c in at_gain), key=abs, default=np.inf),
-        delay=min((c.delay_margin for c in at_gain), default=np.inf),
+        delay=0.0 if loop.gain_at_infinity >= 1 else min((c.delay_margin for c in at_gain), default=np.inf),
         Ms=sensitivity_peak(loop),
         Mt=complementary_peak(loop),
         gain_crossovers=at_gain,

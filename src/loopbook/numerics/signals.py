@@ -77,8 +77,12 @@ class Signal:
         return float(legendre.legval(x, self.coefficients[cell]))
 
     def delayed(self, delay: float) -> "Signal":
-        """The same signal `delay` seconds later."""
-        return Signal(self.edges + delay, self.coefficients) if delay else self
+        """The same signal `delay` seconds later; cells that so late are shorter than any number tells are left out."""
+        if not delay:
+            return self
+        edges = self.edges + delay
+        kept = np.diff(edges) > 0
+        return Signal(edges[np.append(True, kept)], self.coefficients[kept])
 
     def until(self, time: float) -> "Signal":
         """The signal cut off at `time`, which becomes its horizon."""
