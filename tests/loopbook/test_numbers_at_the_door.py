@@ -150,8 +150,20 @@ def test_an_array_gives_an_array(y, exact):
     assert isinstance(Pid(settings).run(y.tolist(), np.array(1.0)), list | np.ndarray)
 
 
+def test_ints_beside_fractions_stay_exact():
+    found = Pid(PidSettings(K=Fraction(1, 3), h=1, u_high=1)).run([0, 1, 2], 1)
+    assert found == [Fraction(1, 3), 0, Fraction(-1, 3)] and all(isinstance(u, Fraction) for u in found)
+
+
+def test_a_number_too_long_for_a_sentence_is_cut():
+    with pytest.raises(ProcessError) as caught:
+        Process([1], [1, 1], 10**400)
+    assert len(str(caught.value)) < 200
+
+
 def test_no_integral_action_is_none_or_infinite():
-    assert PidSettings(K=2.0, Ti=math.inf, h=1.0) == PidSettings(K=2.0, h=1.0)
+    for endless in (math.inf, np.float32(np.inf), Decimal("Infinity"), sympy.oo):
+        assert PidSettings(K=2.0, Ti=endless, h=1.0) == PidSettings(K=2.0, h=1.0)
     assert Pid(PidSettings(K=2.0, Ti=math.inf, h=1.0)).step(0.5, 1.0) == 1.0
     with pytest.raises(SettingError, match="Ti"):
         PidSettings(K=2.0, Ti=-math.inf, h=1.0)

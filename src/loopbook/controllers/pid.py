@@ -77,7 +77,10 @@ class Pid:
 
     def _use(self, settings: PidSettings) -> None:
         self.settings = s = settings
-        values = generated.gains()(s.K, s.Ti, s.Td, s.Tf, s.b, s.c, s.h, s.Tt)
+        given: tuple[Any, ...] = (s.K, s.Ti, s.Td, s.Tf, s.b, s.c, s.h, s.Tt)
+        if any(isinstance(number, Fraction) for number in given):  # the ratio of two ints would be a float
+            given = tuple(Fraction(number) if isinstance(number, int) else number for number in given)
+        values = generated.gains()(*given)
         for name, value in zip(generated.GAINS, values, strict=True):
             setattr(self, f"_{name}", value)
         self._gains = values

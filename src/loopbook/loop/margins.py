@@ -45,7 +45,8 @@ class Margins(ShownAsTable):
 
     gain: the smallest factor above 1 that makes the loop unstable (inf if none). gain_low: the largest below 1 (0 if
     none). The loop is stable for every factor between the two. phase [degrees]: the smallest of all gain crossovers in
-    magnitude; inf without one. delay [s]: the smallest added dead time that makes the loop unstable; inf if none.
+    magnitude; inf without one. delay [s]: the smallest added dead time that makes the loop unstable; inf if none, 0
+    where the loop gain does not fall below 1 at high frequency, which no dead time leaves stable.
     Ms, Mt: sensitivity peaks with their frequencies. gain_crossovers, phase_crossovers: all that were compared.
     """
 
