@@ -51,7 +51,8 @@ class Table:
 
     columns: head cells, inline text. rows: one sequence of inline texts per row (numbers are formatted by `number`).
     align: one of left, right, center per column; default left for the first column and right for the others.
-    marks: per row "", "good", "note" or "bad"; colours the row's last cell.
+    marks: per row "", "good", "note" or "bad"; colours the row's last cell. anchors: per row the name that prose links
+    to, as in ``[proof](#name)``, or "".
     Raises ValueError where a row has another length than the head.
     """
 
@@ -62,6 +63,7 @@ class Table:
     notes: Sequence[str] = ()
     marks: Sequence[str] = ()
     extra: dict[str, Any] = field(default_factory=dict)
+    anchors: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         cells = [[c if isinstance(c, str) else number(c) for c in row] for row in self.rows]
@@ -73,6 +75,8 @@ class Table:
             raise ValueError(f"align takes one of {ALIGNMENTS} for each of {len(self.columns)} columns, got {align}")
         if self.marks and len(self.marks) != len(cells):
             raise ValueError(f"marks: {len(self.marks)} given for {len(cells)} rows")
+        if self.anchors and len(self.anchors) != len(cells):
+            raise ValueError(f"anchors: {len(self.anchors)} given for {len(cells)} rows")
         object.__setattr__(self, "rows", cells)
         object.__setattr__(self, "align", align)
 
@@ -85,6 +89,7 @@ class Table:
             "caption": self.caption,
             "notes": list(self.notes),
             "marks": list(self.marks),
+            **({"anchors": list(self.anchors)} if any(self.anchors) else {}),
         }
 
     def _html(self) -> str:
@@ -149,6 +154,25 @@ def equation(expression: Any, label: str = "", document: str = "") -> Equation:
     import sympy
 
     return Equation(sympy.latex(expression), label, document)
+
+
+@dataclass(frozen=True)
+class Prose:
+    """A paragraph in Markdown whose numbers were computed."""
+
+    text: str
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
+        return {"text/markdown": self.text, "text/plain": self.text}
+
+
+def prose(text: str) -> Prose:
+    """Show a paragraph in Markdown, its numbers computed; a cell tagged ``remove-input`` is prose on the page.
+
+    >>> prose(f"The power for one kelvin is {number(8360.0)} W.").text
+    'The power for one kelvin is 8360 W.'
+    """
+    return Prose(text)
 
 
 @dataclass(frozen=True)

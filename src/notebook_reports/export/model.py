@@ -202,6 +202,13 @@ class Alert:
 
 
 @dataclass
+class Aside:
+    """A note in the margin, of one line or two."""
+
+    blocks: list["Block"]
+
+
+@dataclass
 class ThematicBreak:
     """A thematic break."""
 
@@ -265,6 +272,7 @@ Block = (
     | Definitions
     | Quote
     | Alert
+    | Aside
     | ThematicBreak
     | Grid
     | FigureBlock
@@ -277,13 +285,14 @@ Block = (
 class ReportCell:
     """The blocks of one cell. number: its 1-based position in the notebook. anchor: "cell-7" for a code cell.
 
-    new_page: a page begins with it.
+    new_page: a page begins with it. folded: on a screen, the section that begins with it opens when asked.
     """
 
     number: int
     blocks: list[Block]
     anchor: str = ""
     new_page: bool = False
+    folded: bool = False
 
 
 @dataclass
@@ -322,7 +331,7 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Alert() | ListItem() | Note():
+        case ReportCell() | Quote() | Alert() | Aside() | ListItem() | Note():
             return node.blocks
         case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children

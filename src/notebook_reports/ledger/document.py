@@ -26,6 +26,7 @@ A misprint is *proved* (by a derivation, a dimension, a run of the printed progr
 """
 
 import difflib
+import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -94,13 +95,21 @@ class Document:
 
     printed: what `printed_data.load` read. same: are two SymPy expressions the same mathematics? Proves misprints.
     compare: False where the notebook's parameters are not the document's own. Tables then show what was computed,
-    without a verdict, and leave no record.
+    without a verdict, and leave no record. given: the notebook's parameters by the id of the printed number that each
+    one is; one that differs makes ``compare`` False. Raises LedgerError for an id that is not printed.
     """
 
-    def __init__(self, printed: printed_data.PrintedDocument, compare: bool = True, same: Same = _identical):
+    def __init__(
+        self,
+        printed: printed_data.PrintedDocument,
+        compare: bool = True,
+        same: Same = _identical,
+        given: Mapping[str, float] | None = None,
+    ):
         self.printed = printed
         self.id = printed.id
-        self.compare = compare
+        agree = (math.isclose(float(self.value(id)), x, rel_tol=1e-9) for id, x in (given or {}).items())
+        self.compare = compare and all(agree)
         self._same = same
         self._records: list[LedgerRow] = []
 
@@ -200,7 +209,9 @@ class Document:
         caption = caption or f"{self.id}: statements tested"
         if not self.compare:
             heads, records, marks = heads[:3], [], []
-        return self._checked(Table(heads, rows, caption, ["left"] * len(heads), (), marks), records)
+        anchors = [f"claim-{id}" for id in tested]
+        table = Table(heads, rows, caption, ["left"] * len(heads), (), marks, anchors=anchors)
+        return self._checked(table, records)
 
     def misprint(self, id: str, proof: Any) -> Checked:
         """Record one misprint with its proof; see `misprints`."""
@@ -260,7 +271,8 @@ class Document:
         caption = caption or f"{self.id}: misprints"
         if not self.compare:
             records, marks = [], []
-        return self._checked(Table(heads, rows, caption, ["left"] * 6, (), marks), records)
+        anchors = [f"misprint-{id}" for id in found]
+        return self._checked(Table(heads, rows, caption, ["left"] * 6, (), marks, anchors=anchors), records)
 
     def _checked(self, view: Table, records: list[LedgerRow]) -> Checked:
         self._records.extend(records)

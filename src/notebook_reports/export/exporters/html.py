@@ -15,6 +15,7 @@ from notebook_reports.export.exporters.base import CONTENTS_FROM, TEMPLATES, Rep
 from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import Heading, Report, words_only
 from notebook_reports.export.write.html import HtmlWriter
+from notebook_reports.export.write.html_sections import sections
 from notebook_reports.export.write.mathematics_font import font_face
 from notebook_reports.export.write.mending import mend_formulas
 
@@ -87,6 +88,7 @@ class HtmlExporter(ReportExporter):
             "style": style_sheet(),
             "contents": contents(report, HtmlWriter(report.name)),
             "escape": escape,
+            "sections": sections,
         }
         text = self.template.render(**page)
         return text.replace("<style>\n", f"<style>\n{face}\n", 1) if (face := font_face(text)) else text

@@ -3,13 +3,16 @@
 import difflib
 import posixpath
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 from notebook_reports.export.errors import CannotShow, ExportError, Problem
 from notebook_reports.export.model import (
+    Alert,
     Anchor,
+    Aside,
     Block,
     Display,
     FigureBlock,
@@ -41,6 +44,13 @@ NO_INPUT = {"remove-input", "hide-input", "remove_input", "hide_input"}
 NO_OUTPUT = {"remove-output", "remove_output"}
 NO_CELL = {"remove-cell", "remove_cell"}
 NEW_PAGE = "new-page"
+FOLDED = "folded"
+"""Of a Markdown cell that opens with a heading: its section is folded on a screen."""
+FRAMES: dict[str, Callable[[list[Block]], Block]] = {
+    "margin": Aside,
+    "try-it": lambda blocks: Alert("info", blocks),
+}
+"""Tags of a Markdown cell that stands in the margin or in a box."""
 _SCHEME = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*):")
 _NUMBERED = re.compile(r"\s*(\d+(\.\d+)*[.):]?|[IVX]+\.|[A-Z]\.|§.*)\s")
 
@@ -73,7 +83,9 @@ def read(
         reading.attachments = cell.get("attachments") or {}
         blocks = _cell(cell, reading, _language(notebook))
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
-        cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
+        tags = cell.get("metadata", {}).get("tags", ())
+        folded = FOLDED in tags and bool(blocks) and isinstance(blocks[0], Heading)
+        cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in tags, folded))
     first = _take_title(cells)
     words: list[Inline] = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
     words = words_only(words)
@@ -115,7 +127,9 @@ def _cell(cell: Any, reading: Reading, language: str) -> list[Block]:
         return []
     match cell["cell_type"]:
         case "markdown" | "heading":
-            return reading.attempt(lambda: read_markdown(source, reading), source)
+            found = reading.attempt(lambda: read_markdown(source, reading), source)
+            frame = next((FRAMES[tag] for tag in FRAMES if tag in tags), None)
+            return [frame(found)] if frame and found else found
         case "raw":
             return reading.attempt(lambda: _raw(source, cell.get("metadata", {}), reading), source)
         case "code":

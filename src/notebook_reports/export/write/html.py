@@ -11,6 +11,7 @@ from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
     Alert,
     Anchor,
+    Aside,
     Block,
     Break,
     Bullets,
@@ -93,6 +94,8 @@ class HtmlWriter:
                 return f"<blockquote>{self.blocks(blocks)}</blockquote>"
             case Alert(kind, blocks):
                 return f'<div class="alert {kind}" role="note">{self.blocks(blocks)}</div>'
+            case Aside(blocks):
+                return f'<aside class="margin">{self.blocks(blocks)}</aside>'
             case Mend():
                 return self.mend(block)
             case ThematicBreak():
