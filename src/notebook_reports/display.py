@@ -143,17 +143,22 @@ class Equation:
 
 
 def equation(expression: Any, label: str = "", document: str = "") -> Equation:
-    """Show a SymPy expression, an equality or LaTeX text as a displayed equation.
+    """Show a SymPy expression, an equality or LaTeX text as a displayed equation; a list of equalities below each other.
 
     >>> import sympy
     >>> equation(sympy.Symbol("T_f") / 2, "4.8", "pid-report").latex
     '\\\\frac{T_{f}}{2}'
+    >>> equation([sympy.Eq(*sympy.symbols("a b")), sympy.Eq(*sympy.symbols("c d"))]).latex
+    '\\\\begin{aligned}a &= b \\\\\\\\ c &= d\\\\end{aligned}'
     """
     if isinstance(expression, str):
         return Equation(expression, label, document)
     import sympy
 
-    return Equation(sympy.latex(expression), label, document)
+    if not isinstance(expression, list | tuple):
+        return Equation(sympy.latex(expression), label, document)
+    lines = (f"{sympy.latex(law.lhs)} &= {sympy.latex(law.rhs)}" for law in expression)
+    return Equation(r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}", label, document)
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,31 @@ import sympy as sp
 
 from derivations.algebra.rational import solved_for
 
-s = sp.Symbol("s")
+s, t = sp.Symbol("s"), sp.Symbol("t")
 Q, c, rho = sp.symbols("Q c rho", positive=True)
 V1, Vr, V2 = sp.symbols("V_1 V_r V_2", positive=True)
 U, V = sp.symbols("U V")
+
+
+def balance(volume: sp.Expr) -> sp.Eq:
+    """What a mixed tank stores is what flows in, less what flows out, and what is heated [W].
+
+    >>> balance(V1)
+    Eq(V_1*c*rho*Derivative(T(t), t), Q*c*rho*(-T(t) + T_in(t)) + u(t))
+    """
+    T, T_in, u = (sp.Function(name)(t) for name in ("T", "T_in", "u"))
+    return sp.Eq(rho * c * volume * T.diff(t), rho * c * Q * (T_in - T) + u)
+
+
+def transformed(law: sp.Eq) -> sp.Eq:
+    """A linear law after Laplace's transform, from rest: a derivative is a factor s, x(t) the symbol x.
+
+    >>> transformed(balance(V1))
+    Eq(T*V_1*c*rho*s, Q*c*rho*(-T + T_in) + u)
+    """
+    signals = law.atoms(sp.core.function.AppliedUndef)
+    slopes = {x.diff(t): s * sp.Symbol(x.func.__name__) for x in signals}
+    return law.subs(slopes).subs({x: sp.Symbol(x.func.__name__) for x in signals})
 
 
 def mixed_tank(volume: sp.Expr, inlet: sp.Expr, power: sp.Expr = sp.S.Zero) -> sp.Expr:
@@ -25,8 +46,9 @@ def mixed_tank(volume: sp.Expr, inlet: sp.Expr, power: sp.Expr = sp.S.Zero) -> s
     >>> sp.simplify(mixed_tank(V2, V) - V / (V2 / Q * s + 1))
     0
     """
-    T = sp.Symbol("T")
-    return solved_for(T, rho * c * volume * s * T, rho * c * Q * (inlet - T) + power)
+    T, T_in, u = sp.symbols("T T_in u")
+    law = transformed(balance(volume)).subs({T_in: inlet, u: power})
+    return solved_for(T, law.lhs, law.rhs)
 
 
 def pipe(inlet: sp.Expr) -> sp.Expr:
