@@ -143,7 +143,7 @@ class Equation:
 
 
 def equation(expression: Any, label: str = "", document: str = "") -> Equation:
-    """Show a SymPy expression, an equality or LaTeX text as a displayed equation; a list of equalities below each other.
+    """Show a SymPy expression, an equality or LaTeX text as a displayed equation, a list of equalities as a column.
 
     >>> import sympy
     >>> equation(sympy.Symbol("T_f") / 2, "4.8", "pid-report").latex

@@ -18,10 +18,9 @@ from notebook_reports.project.source import Source, read_source
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"
-LINES, WIDTH, FIGURE_WITHIN, IMPORTS, STEPS, LEDGER_SHARE = 12, 100, 6, 9, 3, 0.15
+LINES, WIDTH, FIGURE_WITHIN, IMPORTS, STEPS, LEDGER_SHARE = 12, 100, 6, 12, 3, 0.15
 NOT_YET = {  # only shrinks: a chapter that keeps every rule has to leave
     "double_tank/02_pid",
-    "double_tank/03_pole_placement",
     "double_tank/04_choice",
     "own_process/code",
     "own_process/design",
@@ -305,7 +304,7 @@ def test_a_good_chapter_keeps_every_rule(tmp_path):
         ("a_figure_soon", 3, ("code", "doc = open_document('x', given={})"), "within the first 6"),
         ("one_face", 1, ("code", "import loopbook as lb\nfrom loopbook.loop.continuous import Loop"), "write lb.Loop"),
         ("one_face", 1, ("code", "import numpy as np"), "import loopbook as lb"),
-        ("one_face", 1, ("code", "import loopbook as lb\n" + "import os\n" * 9), "10 imports"),
+        ("one_face", 1, ("code", "import loopbook as lb\n" + "import os\n" * 12), "13 imports"),
         ("short_and_narrow", 5, ("code", "x = 1\n" * 13), "13 lines"),
         ("short_and_narrow", 5, ("code", f"x = '{'y' * 100}'"), "106 wide"),
         ("no_lambda", 5, ("code", "f = lambda x: x"), "cell 6 has a lambda"),
