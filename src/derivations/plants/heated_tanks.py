@@ -62,6 +62,23 @@ def outlet() -> sp.Expr:
     return mixed_tank(V2, pipe(mixed_tank(V1, V, U)))
 
 
+w = sp.Symbol("omega", positive=True)
+
+
+@cache
+def gain_and_phase(source: sp.Symbol) -> tuple[sp.Expr, sp.Expr]:
+    """|G(j w)| and the argument of G(j w) [rad] on the path from U or V; each lag adds its own angle, the pipe V_r w/Q.
+
+    >>> gain, phase = gain_and_phase(V)
+    >>> phase
+    -atan(V_1*omega/Q) - atan(V_2*omega/Q) - V_r*omega/Q
+    """
+    lags = [1 + s * volume / Q for volume in (V1, V2)]
+    parts = [lag.subs(s, sp.I * w).as_real_imag() for lag in lags]
+    gain = path(source).subs(s, 0) / sp.Mul(*(sp.sqrt(re**2 + im**2) for re, im in parts))
+    return gain, -Vr / Q * w - sp.Add(*(sp.atan(im / re) for re, im in parts))
+
+
 @cache
 def path(source: sp.Symbol) -> sp.Expr:
     """The transfer function from U or V to Y.
