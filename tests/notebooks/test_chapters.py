@@ -20,8 +20,6 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"
 LINES, WIDTH, FIGURE_WITHIN, IMPORTS, STEPS, LEDGER_SHARE = 12, 100, 6, 12, 3, 0.15
 NOT_YET = {  # only shrinks: a chapter that keeps every rule has to leave
-    "own_process/code",
-    "own_process/design",
     "pid_article/01_terms_and_first_loop",
     "pid_article/02_first_order_pi",
     "pid_article/03_step_response_tuning",
@@ -35,6 +33,18 @@ NOT_YET = {  # only shrinks: a chapter that keeps every rule has to leave
     "pid_report/05_experiments",
     "pid_report/06_amigo",
     "pid_report/07_migo_and_the_batch",
+}
+FORM = "a report on the reader's own record: its first page is the sheet, its parameters are the command's options"
+LET_OFF = {  # by chapter: the rules that do not apply to it, with the reason
+    "own_process/design": {
+        "opening": FORM,
+        "a_figure_soon": FORM,
+        "one_face": "the study is the face; it holds all that the page shows",
+        "short_and_narrow": FORM,
+        "numbers_in_sentences_are_computed": "the customary limits of Ms are named in prose",
+        "something_to_try": "what to try next is what the page says of the record",
+        "goes_on": "it goes on in the reader's plant",
+    },
 }
 ALL = sorted(p.relative_to(FOLDER).with_suffix("").as_posix() for p in FOLDER.rglob("[!.]*.ipynb"))
 ALL = [name for name in ALL if ".ipynb_checkpoints" not in name and not name.startswith("exercises/")]
@@ -202,8 +212,9 @@ def parameters_have_ranges(source):
         yield "what the chapter computes from stands in a cell of parameters"
     for parameter in parameters.values():
         number = isinstance(parameter.default, int | float) and not isinstance(parameter.default, bool)
-        if number and not (parameter.range.bounds or parameter.range.choices):
-            yield f"{parameter.name} has no range: say in its comment what it may be, as in [0, 1) or > 0"
+        ranged = parameter.range.bounds or parameter.range.choices or "any number" in parameter.comment
+        if number and not ranged:
+            yield f"{parameter.name} has no range: say in its comment what it may be: [0, 1), > 0, any number"
     for cell in code(source):
         for node in calls(cell.text):
             told = {k.arg for k in node.keywords}
@@ -240,6 +251,9 @@ def goes_on(source):
 @pytest.mark.parametrize("chapter", DONE)
 def test_chapter(chapter, name):
     problems = list(RULES[name](read_source(FOLDER / f"{chapter}.ipynb")))
+    if name in LET_OFF.get(chapter, {}):
+        assert problems, f"{chapter} keeps {name}: take it out of LET_OFF"
+        return
     assert not problems, "\n".join(problems)
 
 
