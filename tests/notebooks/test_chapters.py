@@ -9,10 +9,13 @@ import sys
 import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
+import matplotlib
 import pytest
 
 import loopbook as lb
+from notebook_reports.ledger.document import Document
 from notebook_reports.project.parameters import read_parameters
 from notebook_reports.project.source import Source, read_source
 
@@ -255,6 +258,43 @@ def test_chapter(chapter, name):
         assert problems, f"{chapter} keeps {name}: take it out of LET_OFF"
         return
     assert not problems, "\n".join(problems)
+
+
+def other_value(parameter) -> Any:
+    """Another value within the parameter's range; None where there is no telling."""
+    if isinstance(parameter.default, bool) or not isinstance(parameter.default, int | float):
+        return None
+    tried = (parameter.default * share for share in (1.25, 0.75))
+    return next((type(parameter.default)(x) for x in tried if parameter.range.holds(x)), None)
+
+
+def opened(source: Source, changed: dict[str, Any], names: dict[str, Any]) -> list[Document]:
+    """The documents that a chapter opens, its parameters changed: what stands before and opens them is run.
+
+    names: what is imported; kept for the next time.
+    """
+    for cell in code(source):
+        if cell.text in names:
+            continue
+        for statement in ast.parse(cell.text).body:
+            exec(compile(ast.Module([statement], []), f"cell {cell.number}", "exec"), names)
+            if "open_document(" in ast.unparse(statement):
+                return [value for value in names.values() if isinstance(value, Document)]
+        names |= changed if "parameters" in cell.tags else {}
+        if "import loopbook" in cell.text:
+            names[cell.text] = True
+    return []
+
+
+@pytest.mark.parametrize("chapter", [c for c in DONE if "open_document(" in (FOLDER / f"{c}.ipynb").read_text("utf-8")])
+def test_with_another_value_of_any_parameter_there_is_no_verdict(chapter):
+    matplotlib.use("Agg")
+    source, names = read_source(FOLDER / f"{chapter}.ipynb"), {"__name__": "__main__"}
+    assert all(document.compare for document in opened(source, {}, names))
+    for parameter in read_parameters(source).values():
+        if (value := other_value(parameter)) is not None:
+            documents = opened(source, {parameter.name: value}, names)
+            assert documents and not any(d.compare for d in documents), f"{parameter.name} = {value} is compared"
 
 
 @pytest.mark.parametrize("chapter", sorted(NOT_YET))
