@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from derivations.plants import heated_tanks as tanks
-from loopbook.numerics.exact import decimal
+from loopbook.numerics.rational_numbers import decimal
 from loopbook.process.from_symbols import process_of
 from loopbook.process.transfer_function import Process
 
