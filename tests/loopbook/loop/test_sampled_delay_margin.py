@@ -10,6 +10,8 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
 from loopbook.process.transfer_function import Process
 
+pytestmark = pytest.mark.long
+
 SERVO = Process([2], [1, 3, 2, 0])
 
 
@@ -64,7 +66,7 @@ def test_any_unit_of_time(unit):
     )
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.seeds(12, 60)
 def test_random_loops_against_their_poles_on_a_fine_grid_of_dead_times(seed):
     """Unstable, oscillating, integrating processes, any fraction of dead time, regulators with a zero and a pole."""
     rng = np.random.default_rng(seed)
