@@ -54,6 +54,22 @@ class ProgramController:
         return self.u
 
 
+def runs_first_pass(figure: str, settings: PidSettings, started: bool) -> bool:
+    """Does the first pass of a program run? started: with zeros in its memories, or as printed, with nothing in them.
+
+    >>> [runs_first_pass("4.9", PidSettings(K=1, Ti=2, Td=1, Tf=1, h=1), started) for started in (False, True)]
+    [False, True]
+    """
+    program = ProgramController(figure, settings)
+    if not started:
+        program.states = dict.fromkeys(program.states)
+    try:
+        program.step(1, 2)
+    except TypeError:  # arithmetic with what was never set
+        return False
+    return True
+
+
 def parses(line: str) -> bool:
     """Can a printed line be read as a statement at all?
 
