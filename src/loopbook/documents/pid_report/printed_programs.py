@@ -24,7 +24,7 @@ class ProgramController:
             raise ValueError(f"figure {figure!r} has no program; one of {', '.join(FIGURES)}")
         self.figure = figure
         self._pass = generated.program_pass(figure)
-        self.states = dict.fromkeys(self.state_names(figure), 0)
+        self.states: dict[str, Any] = dict.fromkeys(self.state_names(figure), 0)
         for name in states:
             if name not in self.states:
                 raise ValueError(f"figure {figure} has no state {name!r}; it has {', '.join(self.states)}")
