@@ -21,9 +21,11 @@ def tagged(make, text, tag, *outputs):
 def sheet(make):
     return make.notebook(
         "# A sheet\n\nText.",
+        tagged(make, "hidden = 4710", "parameters", Listing("none")),
         tagged(make, "drawn(K)", "given", Listing("a drawing")),
         tagged(make, "**1.** How large?", "question"),
         tagged(make, "secret = 4711", "solution", Listing("it is four")),
+        tagged(make, "Look again.", "hint"),
         tagged(make, "2. How often?", "question"),
         tagged(make, "secret = 4712", "solution", Listing("it is five")),
         tagged(make, "because", "solution"),
@@ -31,10 +33,15 @@ def sheet(make):
 
 
 def test_the_ways(sheet, make):
-    assert [number for number, _ in arranged(sheet, LEFT_OUT)] == [1, 2, 3, 5]
+    assert [number for number, _ in arranged(sheet, LEFT_OUT)] == [1, 3, 4, 6, 7]
     texts = [cell["source"] for _, cell in arranged(sheet, ALONE)]
-    assert texts == ["**1.**", "secret = 4711", "**2.**", "secret = 4712", "because"]
-    assert [cell["source"] for _, cell in arranged(sheet, LAST)][4:6] == ["## Solutions", "**1.**"]
+    assert texts == ["hidden = 4710", "**1.**", "secret = 4711", "**2.**", "secret = 4712", "because"]
+    assert [cell["source"] for _, cell in arranged(sheet, LAST)][3:7] == [
+        "*Hint.* Look again.",
+        "2. How often?",
+        "## Solutions",
+        "hidden = 4710",
+    ]
     plain = make.notebook("# No exercise")
     assert not has_solutions(plain) and [n for n, _ in arranged(plain, LAST)] == [1] and arranged(plain, ALONE) == []
     with pytest.raises(ValueError, match="solutions are last"):
@@ -43,7 +50,7 @@ def test_the_ways(sheet, make):
 
 def test_a_given_cell_shows_what_it_gives_and_not_its_code(sheet):
     report = read(sheet, "a/sheet")
-    assert [cell.number for cell in report.cells] == [1, 2, 3, 5, 4, 4, 4, 6, 6, 7]
+    assert [cell.number for cell in report.cells] == [1, 3, 4, 6, 7, 2, 2, 5, 5, 8, 8, 9]
     words = repr(report.cells)
     assert "a drawing" in words and "drawn(K)" not in words and "secret = 4711" in words
 

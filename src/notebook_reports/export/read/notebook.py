@@ -64,7 +64,8 @@ def read(
 
     The title is the one given, else the first top heading, else the last part of `name`. name: "folder/notebook", as
     links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes. folder:
-    where relative images are looked up; root: below which they have to lie, default the folder. solutions: see `arranged`.
+    where relative images are looked up; root: below which they have to lie, default the folder. solutions: see
+    `arranged`.
     """
     reading = Reading(folder, document, strict_alt, mode == "mend", root)
     sources = _markdown_sources(notebook)
