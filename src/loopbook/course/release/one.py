@@ -55,19 +55,19 @@ def release_one(job: ReleaseJob) -> ReleaseFiles:
     key = key_notebook(ran.sheet, solved, job.student)
     teacher = {f"{job.sheet}.ipynb": as_bytes(key)}
     if job.pdf:
-        student[f"{job.sheet}.pdf"] = as_pdf(for_paper(ran.sheet, solved, job.student), ran.sheet)
-        teacher[f"{job.sheet}.pdf"] = as_pdf(key, ran.sheet)
+        student[f"{job.sheet}.pdf"] = as_report(for_paper(ran.sheet, solved, job.student), ran.sheet, "pdf")
+        teacher[f"{job.sheet}.pdf"] = as_report(key, ran.sheet, "pdf", "Key: ")
     leaks = [str(leak) for leak in LeakScanner(ran.sheet, solved, job.secret).scan(student)]
     return ReleaseFiles(student, teacher, key_row(ran.sheet, solved), leaks)
 
 
-def as_pdf(content: Content, sheet: Sheet) -> bytes:
-    """A notebook as PDF. Raises SheetError for what a page cannot show, by cell."""
+def as_report(content: Content, sheet: Sheet, format: str, before: str = "") -> bytes:
+    """A notebook as PDF or HTML. before: the sheet's title. Raises SheetError for what a page cannot show, by cell."""
     import nbformat
 
     from notebook_reports.export.exporters.choose import ExportError, export
 
     try:
-        return export(nbformat.from_dict(content), "pdf", name=sheet.id, title=sheet.title)
+        return export(nbformat.from_dict(content), format, name=sheet.id, title=f"{before}{sheet.title}")
     except ExportError as error:
-        raise SheetError(f"{sheet.id}: the PDF: {error}") from None
+        raise SheetError(f"{sheet.id}: the {format.upper()}: {error}") from None

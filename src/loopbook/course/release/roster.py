@@ -3,7 +3,7 @@
 import csv
 import io
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,8 +34,17 @@ class Student:
     name: str = ""
 
 
+def plain_name(column: str) -> str:
+    """A column's name as it is compared.
+
+    >>> plain_name("Student_ID ")
+    'student id'
+    """
+    return " ".join(column.replace("_", " ").split()).casefold()
+
+
 def read_table(path: Path) -> tuple[list[str], list[dict[str, str]], list[int]]:
-    """(columns, rows, their lines) of a CSV with commas, semicolons or tabs; names of columns in small letters.
+    """(columns, rows, their lines) of a CSV with commas, semicolons or tabs.
 
     Raises CourseError where it cannot be read.
     """
@@ -57,7 +66,7 @@ def read_table(path: Path) -> tuple[list[str], list[dict[str, str]], list[int]]:
     lines = [(number, row) for number, row in lines if any(row)]
     if not lines:
         raise CourseError(f"{path} is empty")
-    columns = [" ".join(name.replace("_", " ").split()).casefold() for name in lines[0][1]]
+    columns = lines[0][1]
     rows = []
     for number, row in lines[1:]:
         if len(row) > len(columns):
@@ -73,7 +82,7 @@ def read_roster(path: Path) -> list[Student]:
     an id twice, or one that no file can be named after.
     """
     columns, rows, lines = read_table(path)
-    column = next((name for name in IDS if name in columns), None)
+    column = id_column(columns)
     if column is None:
         raise CourseError(f"{path}: no column of ids; name one of the columns id (there are: {', '.join(columns)})")
     found: dict[str, Student] = {}
@@ -89,6 +98,12 @@ def read_roster(path: Path) -> list[Student]:
     return list(found.values())
 
 
-def _name(row: Mapping[str, str]) -> str:
+def id_column(columns: Sequence[str]) -> str | None:
+    """The column that holds the ids of students, as written."""
+    return next((c for name in IDS for c in columns if plain_name(c) == name), None)
+
+
+def _name(written: Mapping[str, str]) -> str:
+    row = {plain_name(column): cell for column, cell in written.items()}
     whole = next((row[n] for n in NAMES if row.get(n)), "")
     return whole or " ".join(p for n in (FIRST, LAST) for p in [next((row[k] for k in n if row.get(k)), "")] if p)
