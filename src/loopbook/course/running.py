@@ -77,7 +77,7 @@ class SheetRunner:
         """
         space: dict[str, Any] = {"__name__": "__main__"}
         for name, parameter in self.sheet.parameters.items():
-            space[name] = parameter.check(parameters[name]) if name in parameters else parameter.default
+            space[name] = parameters.get(name, parameter.default)
         solved = Solved({name: space[name] for name in self.sheet.parameters})
         session = Session(own=own or {}, strict=strict)
         solved.asked = session.asked

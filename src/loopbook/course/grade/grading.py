@@ -112,7 +112,7 @@ def write(done: Grades, out: Path, manifest: Manifest) -> None:
         sums = [sum(j.points for j in done.judged.get((student, sheet), [])) for sheet in sheets]
         grades.append([student, name, *(f"{s:g}" for s in sums), f"{sum(sums):g}", f"{of:g}"])
     answers = [
-        [student, sheet, j.name, j.given, j.verdict, j.words, f"{j.points:g}", f"{j.of:g}", j.key]
+        [student, sheet, j.name, j.given, j.verdict, j.words, f"{j.points:g}", f"{j.of:g}", j.plain_key]
         for (student, sheet), judged in sorted(done.judged.items())
         for j in judged
     ]

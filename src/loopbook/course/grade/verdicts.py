@@ -59,6 +59,7 @@ class Judged:
     key: str = ""
     method: str = ""
     own: tuple[str, ...] = ()
+    plain_key: str = ""
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ def judge(asked: Asked, given: Given, from_own: Asked | None = None, own: Sequen
         return _judged(
             asked, MISSING if missing else UNREADABLE, "missing" if missing else str(error), shown_raw(given.raw)
         )
-    text = shown_raw(given.raw) if callable(value) else asked.kind.text(value)
+    text = _as_given(asked, given.raw, value)
     if asked.holds is not None:
         found = _by_conditions(asked, value, text, ())
         other = _by_conditions(from_own, value, text, own) if from_own and found.verdict == WRONG else found

@@ -74,7 +74,7 @@ class Formula:
         try:
             return self._read(raw.partition("=")[2] if raw.count("=") == 1 else raw)
         except FormulaError as error:
-            raise Unreadable(str(error)) from None
+            raise Unreadable(f"this is no formula: at character {error.position + 1}: {error.reason}") from None
 
     def same(self, given: Any, key: Any, widths: float = 1.0) -> bool:
         return bool(vanishes(given - key))

@@ -40,7 +40,9 @@ class Polynomial:
         try:
             expression = read_formula(raw, {self.symbol: sympy.Symbol(self.symbol)})
             return _trimmed([finite(float(c)) for c in _coefficients(expression, self.symbol)])
-        except (FormulaError, SheetError) as error:
+        except FormulaError as error:
+            raise Unreadable(f"this is no polynomial: at character {error.position + 1}: {error.reason}") from None
+        except SheetError as error:
             raise Unreadable(str(error)) from None
 
     def same(self, given: Sequence[float], key: Sequence[float], widths: float = 1.0) -> bool:

@@ -26,6 +26,7 @@ SHORTEST_LINE = 12
 _TOP = {"cells", "metadata", "nbformat", "nbformat_minor"}
 _CELL = {"cell_type", "id", "metadata", "source", "attachments", "execution_count", "outputs"}
 _TAGS = {"question", "hint"}
+_WORDS = re.compile(rb"<(?:dc:(?:title|description|subject)|pdf:Keywords)[^>]*>(.*?)</(?:dc|pdf):", re.DOTALL)
 _DRAWN = {"d", "x", "y", "x1", "x2", "y1", "y2", "cx", "cy", "r", "rx", "ry", "width", "height", "transform", "points",
           "style", "viewBox", "id", "class", "clip-path", "href", "version", "preserveAspectRatio", "type", "fill",
           "stroke", "font-size", "text-anchor", "offset"}  # fmt: skip
@@ -102,7 +103,7 @@ class LeakScanner:
         if b"/EmbeddedFile" in content:
             yield "a file inside the PDF"
         streams = [content, *_streams(content)]
-        metadata = [s.decode("latin-1") for s in streams if b"<x:xmpmeta" in s or b"<?xpacket" in s]
+        metadata = [w.decode("latin-1") for s in streams for w in _WORDS.findall(s)]
         told = [
             found.decode("latin-1") for found in re.findall(rb"/(?:Keywords|Subject|Author|Title)\s*\((.*?)\)", content)
         ]

@@ -91,7 +91,7 @@ def _still_fitting(ran: SheetRunner, held: dict[str, dict[str, Any]]) -> tuple[d
         found[student] = {name: numbers.get(name, parameter.default) for name, parameter in names.items()}
         try:
             reason = why_not(ran, found[student])
-        except (SheetError, ValueError) as error:
+        except SheetError as error:
             raise CourseError(f"{ran.sheet.id}: the sheet no longer takes the numbers of {student}: {error}") from None
         if reason:
             odd.append(f"{ran.sheet.id}: {student} keeps numbers that would not be drawn now: {reason}")

@@ -1,1 +1,1 @@
-"""A student's notebook run where it can do no harm: a process of its own, as another user, without network, with limits."""
+"""A student's notebook run where it can do no harm: another user, no network, limits."""

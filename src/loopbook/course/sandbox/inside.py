@@ -1,7 +1,7 @@
-"""The process in which a student's notebook runs: its cells, then its answers as plain JSON; functions stay and are called.
+"""The process in which a student's notebook runs: its cells, then its answers as plain JSON; functions stay.
 
-Nothing here is trusted by what reads it: whatever the notebook changes in this process, what comes out is a line of JSON
-with numbers and texts in it.
+Nothing here is trusted by what reads it: whatever the notebook changes in this process, what comes out is a line of
+JSON with numbers and texts in it.
 """
 
 import io

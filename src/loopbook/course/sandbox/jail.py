@@ -1,4 +1,4 @@
-"""Where students' notebooks are run, and all that comes back: plain numbers, texts, lists; within the limits, or a reason.
+"""Where students' notebooks are run, and what comes back: plain numbers, texts, lists; or the reason why not.
 
 What is not shut out is said in docs/teaching.md: without root the notebook runs as the user who grades, and where the
 system has no namespaces it can reach the network and read what that user can read.
@@ -79,7 +79,7 @@ class Running:
         return found
 
     def call(self, name: str, *arguments: float) -> float:
-        """Call one of its functions with plain numbers. Raises NotebookFailed where it gives no finite number in time."""
+        """Call one of its functions with plain numbers. Raises NotebookFailed where no finite number comes in time."""
         left = min(self._limits.call, self._ends - time.monotonic())
         self._say({"call": name, "arguments": [float(a) for a in arguments]})
         told = self._line(left, f"{name}(...)")
@@ -162,7 +162,7 @@ class Jail:
         with theirs:
             self._process = subprocess.Popen(
                 [sys.executable, "-P", "-m", "loopbook.course.sandbox.zygote"],
-                stdin=theirs,
+                stdin=theirs.fileno(),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 env=env,

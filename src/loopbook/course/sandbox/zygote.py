@@ -1,7 +1,7 @@
 """The process that the processes of notebooks are forked from: imports done, and nothing of the course in its memory.
 
-Started by `loopbook.course.sandbox.jail` with a socket as file 0. One message is one notebook: its pipes, who it runs as,
-what is hidden from it. It answers with the process to be ended when the notebook is done with.
+Started by `loopbook.course.sandbox.jail` with a socket as file 0. One message is one notebook: its pipes, who it runs
+as, what is hidden from it. It answers with the process to be ended when the notebook is done with.
 """
 
 import gc
