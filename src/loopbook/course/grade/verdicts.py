@@ -110,9 +110,15 @@ def _judged(
     asked: Asked, verdict: str, words: str, given: str = "", method: str = "", own: Sequence[str] = ()
 ) -> Judged:
     points = SHARE.get(verdict, 0.0) * asked.points
-    return Judged(
-        asked.name, verdict, words, points, asked.points, given, asked.kind.text(asked.key), method, tuple(own)
-    )
+    key, plain = asked.kind.text(asked.key), shown_raw(asked.kind.plain(asked.key))
+    return Judged(asked.name, verdict, words, points, asked.points, given, key, method, tuple(own), plain)
+
+
+def _as_given(asked: Asked, raw: Any, value: Any) -> str:
+    """What a student wrote, as people read it: a number with the digits that it has."""
+    if isinstance(asked.kind, Number):
+        return with_unit(f"{value:.7g}", asked.kind.unit)
+    return shown_raw(raw) if callable(value) else asked.kind.text(value)
 
 
 def _by_conditions(asked: Asked, value: Any, text: str, own: Sequence[str]) -> Judged:
