@@ -12,7 +12,7 @@ from typing import Any
 
 from loopbook.course.errors import Unreadable
 from loopbook.course.kinds.choice import Choice
-from loopbook.course.kinds.kind import shown_number
+from loopbook.course.kinds.kind import shown_number, with_unit
 from loopbook.course.kinds.number import Number
 from loopbook.course.question import Asked
 from notebook_reports.ledger.verdicts import rounds_to
