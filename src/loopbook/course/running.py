@@ -122,7 +122,8 @@ class SheetRunner:
 
 def as_output(value: Any) -> dict[str, Any]:
     """What a notebook holds of a value that a cell shows."""
-    data, metadata = _formatter()(value)
+    own = getattr(value, "_repr_mimebundle_", None)
+    data, metadata = (own(), {}) if own is not None else _formatter()(value)
     return {"output_type": "display_data", "data": data, "metadata": metadata}
 
 

@@ -10,6 +10,8 @@ from loopbook.course.tolerance import Tolerance
 from notebook_reports.formula.read import FormulaError, read_formula
 
 HIGHEST = 30
+NOTHING = 1e-9
+"""Relative to the largest coefficient: what computing leaves of a zero."""
 
 
 @dataclass(frozen=True)
@@ -64,10 +66,10 @@ class Polynomial:
     def text(self, key: Sequence[float]) -> str:
         parts: list[str] = []
         for power, coefficient in zip(range(len(key) - 1, -1, -1), key, strict=True):
-            if coefficient or len(key) == 1:
+            if abs(coefficient) > NOTHING * max(map(abs, key)):
                 x = "" if not power else self.symbol if power == 1 else f"{self.symbol}^{{{power}}}"
                 size = shown_number(abs(coefficient), self.tolerance.shown_digits)
-                digits = "" if x and float(size) == 1 else size
+                digits = "" if x and abs(coefficient) == 1 else size
                 sign = ("- " if parts else "-") if coefficient < 0 else ("+ " if parts else "")
                 parts.append(f"{sign}{digits}{x}")
         return f"${' '.join(parts)}$"
@@ -80,7 +82,7 @@ class Polynomial:
         return "[]"
 
     def numbers(self, key: Sequence[float]) -> list[float]:
-        return [c for c in key if c not in (0.0, 1.0, -1.0)]
+        return [c for c in key if abs(c) > NOTHING * max(map(abs, key)) and abs(c) != 1.0]
 
 
 def _trimmed(coefficients: list[float]) -> tuple[float, ...]:
