@@ -25,7 +25,10 @@ class _Letters(dict[str, Any]):
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula in `symbols`, which may hold samples: ``K T_i h e[k] e[k-1]``. unit: of its value, for the reader."""
+    """A formula in `symbols`, which may hold samples: ``K T_i h e[k] e[k-1]``. unit: of its value, for the reader.
+
+    The letters stand for positive numbers, as times and gains are; samples for any.
+    """
 
     symbols: str
     unit: str = ""
@@ -34,7 +37,9 @@ class Formula:
     def names(self) -> Mapping[str, Any]:
         import sympy
 
-        return _Letters({name: sympy.Symbol(name) for name in self.symbols.split() if not _SAMPLE.fullmatch(name)})
+        return _Letters(
+            {name: sympy.Symbol(name, positive=True) for name in self.symbols.split() if not _SAMPLE.fullmatch(name)}
+        )
 
     @property
     def samples(self) -> dict[tuple[str, int], Any]:

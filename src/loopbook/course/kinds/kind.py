@@ -64,12 +64,13 @@ def finite(raw: Any) -> float:
         raise Unreadable(_text_for_number(raw))
     if not isinstance(raw, int | float):
         raise Unreadable(f"a number is asked for, not {_named(raw)}")
-    if not math.isfinite(raw):
-        raise Unreadable(f"{raw} is no number that can be compared")
     try:
-        return float(raw)
+        found = float(raw)
     except OverflowError:
         raise Unreadable("the number is too large") from None
+    if not math.isfinite(found):
+        raise Unreadable(f"{found} is no number that can be compared")
+    return found
 
 
 def _text_for_number(text: str) -> str:

@@ -93,8 +93,9 @@ def _trimmed(coefficients: list[float]) -> tuple[float, ...]:
 def _coefficients(expression: Any, symbol: str) -> list[Any]:
     import sympy
 
+    letter = sympy.Symbol(symbol)
     try:
-        found = sympy.Poly(expression, sympy.Symbol(symbol))
+        found = sympy.Poly(expression.subs({s: letter for s in expression.free_symbols if s.name == symbol}), letter)
     except sympy.PolynomialError:
         raise SheetError(f"this is no polynomial in {symbol}") from None
     if found.degree() > HIGHEST:
