@@ -57,12 +57,13 @@ class Sheet:
         found = set()
         for cell in reversed(self.programs):
             names = list(ast.walk(syntax(cell, self.id)))
-            stored = {n.id for n in names if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+            stored = {name for node in names for name in _bound(node)}
             drawn = any(is_call(n, "figure") for n in names)
             if GIVEN in cell.tags and drawn and not stored & needed:
                 found.add(cell.number)
             else:
-                needed |= {n.id for n in names if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
+                imports = {name for n in names if isinstance(n, ast.Import | ast.ImportFrom) for name in _bound(n)}
+                needed |= {n.id for n in names if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)} - imports
         return frozenset(found)
 
     @property
@@ -125,6 +126,17 @@ def problems(sheet: Sheet) -> list[str]:
         if unknown and cell in sheet.seen:
             found.append(f"cell {cell.number} shows {{{{{min(unknown)}}}}}, which is no parameter")
     return found
+
+
+def _bound(node: ast.AST) -> list[str]:
+    """The names that a statement binds."""
+    if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+        return [node.id]
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        return [node.name]
+    if isinstance(node, ast.Import | ast.ImportFrom):
+        return [(alias.asname or alias.name).partition(".")[0] for alias in node.names]
+    return []
 
 
 def is_call(node: ast.AST, *functions: str) -> bool:
