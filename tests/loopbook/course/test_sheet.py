@@ -24,11 +24,8 @@ def test_outputs_are_kept_where_they_are_wanted(runner_of, head):
         "given",
     )
     text = ("code", "from notebook_reports.display import Listing\nprint('said')\nListing('shown')", "given")
-    needed = (
-        "code",
-        "import matplotlib.pyplot as plt\nfrom notebook_reports.display import figure\nx = 3\nfigure(plt.figure(), 'c', 'a')",
-        "given",
-    )
+    imports = "import matplotlib.pyplot as plt\nfrom notebook_reports.display import figure\n"
+    needed = ("code", imports + "x = 3\nfigure(plt.figure(), 'c', 'a')", "given")
     question, solution = ("md", "**1.** ?", "question"), ("code", "y = answer('y', x + 0.5)", "solution")
     ran = runner_of(*head, drawing, text, needed, question, solution)
     assert ran.sheet.only_drawn == {4}

@@ -10,7 +10,7 @@ from typing import Any
 
 from derivations.errors import LoopbookError
 from loopbook.course.errors import SheetError, Unreadable
-from loopbook.course.grade.verdicts import Given, Judged, judge
+from loopbook.course.grade.verdicts import OWN, Given, Judged, judge
 from loopbook.course.kinds.number import Number
 from loopbook.course.question import Asked
 from loopbook.course.running import SheetRunner, Solved
@@ -18,6 +18,8 @@ from loopbook.course.time_limit import time_limit
 
 SECONDS = 30.0
 """For one run of a sheet with a student's values."""
+SAME = 0.01
+"""Tolerances that two keys may differ by and count as one."""
 FARTHEST = 1e4
 """How many times larger or smaller than the key a student's own number may be and still be gone on with."""
 
@@ -45,24 +47,19 @@ def judge_all(ran: SheetRunner, numbers: Mapping[str, Any], given: Mapping[str, 
     right = solved.asked
     runs = Consequences(ran, numbers, _usable(right, given))
     chained = _chained(runs, right)
-    found = []
+    found: dict[str, Judged] = {}
     for name, asked in right.items():
-        earlier = {n: v for n, v in runs.own.items() if n in _before(right, name)}
+        earlier = {n: v for n, v in runs.own.items() if n in found}
         own = chained.get(name) if chained and earlier else None
         if own is not None and own.holds is None and _equal(own, asked):
             own = None
-        names = _decisive(runs, right, earlier, name) if own is not None else []
+        names = _decisive(runs, right, earlier, name, found) if own is not None else []
         try:
             with time_limit(SECONDS):
-                found.append(judge(asked, given.get(name, Given()), own if names else None, names))
+                found[name] = judge(asked, given.get(name, Given()), own if names else None, names)
         except TimeoutError:
-            found.append(judge(asked, Given(refused="comparing it takes too long; write it shorter")))
-    return solved, found
-
-
-def _before(asked: Mapping[str, Asked], name: str) -> set[str]:
-    names = list(asked)
-    return set(names[: names.index(name)])
+            found[name] = judge(asked, Given(refused="comparing it takes too long; write it shorter"))
+    return solved, list(found.values())
 
 
 def _usable(right: Mapping[str, Asked], given: Mapping[str, Given]) -> dict[str, Any]:
@@ -85,14 +82,15 @@ def _usable(right: Mapping[str, Asked], given: Mapping[str, Given]) -> dict[str,
 
 
 def _chained(runs: Consequences, right: Mapping[str, Asked]) -> dict[str, Asked] | None:
-    """The sheet with all of the student's own values; those that it cannot go on with are left out, the first that is
-    wrong first."""
+    """The sheet with all of the student's own values; those that it cannot go on with are left out, of the wrong ones
+    one alone where that will do."""
     while runs.own:
         found = runs.asked(runs.own)
         if found is not None and set(found) == set(right):
             return found
-        wrong = [n for n in runs.own if not _is_right(right[n], runs.own[n])]
-        del runs.own[wrong[-1] if wrong else list(runs.own)[-1]]
+        wrong = [n for n in runs.own if not _is_right(right[n], runs.own[n])] or list(runs.own)
+        without = [{k: v for k, v in runs.own.items() if k != n} for n in wrong]
+        runs.own = next((own for own in without if runs.asked(own) is not None), without[-1])
     return None
 
 
@@ -103,22 +101,35 @@ def _is_right(asked: Asked, raw: Any) -> bool:
         return False
 
 
-def _decisive(runs: Consequences, right: Mapping[str, Asked], earlier: Mapping[str, Any], name: str) -> list[str]:
-    """Of the earlier values those that move this answer: the wrong ones, or where all are right the rounded ones."""
-    moving = []
-    for other, raw in earlier.items():
-        found = runs.asked({other: raw})
-        if found is None or name not in found or not _equal(found[name], right[name]):
-            moving.append(other)
+def _decisive(
+    runs: Consequences,
+    right: Mapping[str, Asked],
+    earlier: Mapping[str, Any],
+    name: str,
+    judged: Mapping[str, Judged],
+) -> list[str]:
+    """Of the earlier values those that make this answer what it is: without one of them it would be another.
+
+    Where values follow from each other none is alone decisive: then the first causes, each of which moves the answer.
+    Right values that were only rounded are named where no wrong one is.
+    """
+
+    def key(own: Mapping[str, Any]) -> Asked | None:
+        return (runs.asked(own) or {}).get(name)
+
+    def moves(one: Asked | None, other: Asked | None) -> bool:
+        return one is None or other is None or not _equal(one, other)
+
+    whole = key(earlier)
+    moving = [n for n in earlier if moves(key({k: v for k, v in earlier.items() if k != n}), whole)]
+    if not moving:
+        moving = [n for n in earlier if judged[n].verdict != OWN and moves(key({n: earlier[n]}), right[name])]
     wrong = [n for n in moving if not _is_right(right[n], earlier[n])]
     return wrong if wrong or right[name].holds is not None else moving
 
 
 def _equal(one: Asked, other: Asked) -> bool:
-    """Is it the same key, to the last digits?"""
+    """Is it the same key, as far as it can matter?"""
     if one.holds is not None or (callable(one.key) and not hasattr(one.key, "free_symbols")):
         return False
-    first, second = one.kind.plain(one.key), other.kind.plain(other.key)
-    if isinstance(first, float) and isinstance(second, float):
-        return abs(first - second) <= 1e-12 * abs(second)
-    return bool(first == second)
+    return one.kind.same(one.key, other.key, SAME)

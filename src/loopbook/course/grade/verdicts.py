@@ -15,7 +15,6 @@ from loopbook.course.kinds.choice import Choice
 from loopbook.course.kinds.kind import shown_number, with_unit
 from loopbook.course.kinds.number import Number
 from loopbook.course.question import Asked
-from notebook_reports.ledger.verdicts import rounds_to
 
 RIGHT, OWN, ROUNDED, HALF, METHOD, UNIT, SIGN, WRONG, UNREADABLE, MISSING = VERDICTS = (
     "right",
@@ -32,6 +31,8 @@ RIGHT, OWN, ROUNDED, HALF, METHOD, UNIT, SIGN, WRONG, UNREADABLE, MISSING = VERD
 SHARE = {RIGHT: 1.0, OWN: 1.0, ROUNDED: 0.5, HALF: 0.5}
 """Of the points; of the others none."""
 MARKS = {RIGHT: "good", OWN: "good", ROUNDED: "note", HALF: "note"}
+FEWEST = 2
+"""Significant digits of the right value that show its method."""
 NEARLY = 3.0
 """Tolerances within which a value is the right one rounded on the way."""
 FACTORS = {
@@ -161,9 +162,7 @@ def _rounded(asked: Asked, value: Any) -> bool:
         return True
     if not isinstance(asked.kind, Number) or asked.kind.whole or not value:
         return False
-    digits = repr(float(value))
-    significant = digits.partition("e")[0].replace(".", "").replace("-", "").strip("0")
-    return len(significant) >= 2 and rounds_to(asked.key, digits.removesuffix(".0"))
+    return any(math.isclose(value, float(f"{asked.key:.{digits}g}"), rel_tol=1e-9) for digits in range(FEWEST, 7))
 
 
 def listed(names: Sequence[str]) -> str:

@@ -29,6 +29,7 @@ def solve(n, own):
     loop = share * Kp * cmath.exp(-1j * c * L) / (1 + 1j * c * T) ** 2
     without = share * Kp / (1 + 1j * c * T) ** 2
     margin, large = (math.degrees(math.pi + cmath.phase(g)) for g in (loop, without))
+    margin -= 360 if margin > 180 else 0
     return {
         "w180": (w, {"one lag alone": single, "degrees for radians": math.degrees(w)}),
         "Ku": (ku, {"one lag alone": math.sqrt(ku * Kp) / Kp, "Kp left out": ku * Kp}),

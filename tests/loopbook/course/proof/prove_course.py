@@ -7,15 +7,16 @@ them: keys and wrong methods that another route does not confirm, answers that h
 of their tolerance or more.
 """
 
-import importlib.util
 import math
 import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cache
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+from class_of import by_hand
 
 from loopbook.course.errors import SheetError
 from loopbook.course.kinds.function import Function
@@ -28,19 +29,9 @@ from notebook_reports.run.filled import written
 
 ROOT = Path(__file__).parents[4]
 SHEETS = sorted((ROOT / "notebooks" / "exercises").glob("*.ipynb"))
-HAND = Path(__file__).parents[1] / "by_hand"
 THIRD = 1 / 3
 CLASS = 240
 SECRET = b"prove the sheets"
-
-
-@cache
-def by_hand(sheet: str):
-    """The function `solve` of a sheet's file."""
-    spec = importlib.util.spec_from_file_location(f"by_hand_{sheet}", HAND / f"{sheet}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.solve
 
 
 @dataclass
