@@ -25,11 +25,9 @@ def solve(n, own):
     K = own.get("Ku", ku)
     tu = own.get("Tu", 2 * math.pi / at)
     share = n["factor"] * K
-    c = bisect(lambda w: 1 - share * Kp / abs(1 + 1j * w * T) ** 2, 0.0, 50 / T)
-    loop = share * Kp * cmath.exp(-1j * c * L) / (1 + 1j * c * T) ** 2
-    without = share * Kp / (1 + 1j * c * T) ** 2
-    margin, large = (math.degrees(math.pi + cmath.phase(g)) for g in (loop, without))
-    margin -= 360 if margin > 180 else 0
+    c = bisect(lambda w: 1 - share * Kp / abs(1 + 1j * w * T) ** 2, 0.0, 1e5 / T)
+    lags = 2 * cmath.phase(1 + 1j * c * T)
+    margin, large = math.degrees(math.pi - c * L - lags), math.degrees(math.pi - lags)
     return {
         "w180": (w, {"one lag alone": single, "degrees for radians": math.degrees(w)}),
         "Ku": (ku, {"one lag alone": math.sqrt(ku * Kp) / Kp, "Kp left out": ku * Kp}),
