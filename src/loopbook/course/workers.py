@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import get_context
+from multiprocessing import get_all_start_methods, get_context
+from multiprocessing.context import BaseContext
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -17,6 +18,17 @@ from notebook_reports.project.project import no_project
 from notebook_reports.run.surroundings import environment
 
 TRIES = 3
+PRELOADED = (
+    "numpy",
+    "scipy.signal",
+    "sympy",
+    "matplotlib.pyplot",
+    "loopbook.course.release.one",
+    "loopbook.course.grade.one",
+    "notebook_reports.export.exporters.pdf",
+    "notebook_reports.export.exporters.html",
+)
+"""What each worker would import: done once, in the process that they are forked from."""
 Job = Any
 Result = Any
 
@@ -41,7 +53,7 @@ class Processes:
         while waiting:
             alone = any(waiting.values())  # after a process was killed, one at a time: then it is known by whose job
             todo = list(waiting)[:1] if alone else list(waiting)
-            with _surroundings(), ProcessPoolExecutor(1 if alone else self.number, get_context("spawn")) as pool:
+            with _surroundings(), ProcessPoolExecutor(1 if alone else self.number, _context()) as pool:
                 futures: dict[Future[Result], int] = {pool.submit(function, jobs[place]): place for place in todo}
                 for future in as_completed(futures):
                     place = futures[future]
@@ -56,6 +68,14 @@ class Processes:
                         found = error
                     del waiting[place]
                     yield place, found
+
+
+def _context() -> BaseContext:
+    if "forkserver" not in get_all_start_methods():
+        return get_context("spawn")
+    context = get_context("forkserver")
+    context.set_forkserver_preload(list(PRELOADED))
+    return context
 
 
 def cores() -> int:

@@ -55,3 +55,8 @@ def runner_of(sheet_file):
 @pytest.fixture
 def head():
     return HEAD
+
+
+@pytest.fixture
+def tail():
+    return TAIL

@@ -23,6 +23,8 @@ from typing import Any
 from derivations.errors import LoopbookError
 from loopbook.course.sandbox.limits import Limits
 
+ENDING = 5.0
+"""Seconds that the processes of a notebook may take to end."""
 LONGEST = 4 << 20
 """Bytes of one message."""
 
@@ -131,9 +133,13 @@ class Running:
         for file in (self._orders, self._replies):
             with suppress(OSError):
                 os.close(file)
-        for kill in (lambda: os.killpg(self._pid, signal.SIGTERM), lambda: os.kill(self._pid, signal.SIGTERM)):
-            with suppress(OSError):
-                kill()
+        with suppress(OSError):
+            guard = os.pidfd_open(self._pid)
+            try:
+                signal.pidfd_send_signal(guard, signal.SIGTERM)
+                select.select([guard], [], [], ENDING)
+            finally:
+                os.close(guard)
 
 
 def _is_plain(value: Any, depth: int = 0) -> bool:

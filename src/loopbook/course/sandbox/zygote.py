@@ -62,6 +62,7 @@ def _guard(order: dict, files: list[int]) -> None:
 
     def end(*_: object) -> None:
         os.kill(pid, signal.SIGKILL)
+        os.waitpid(pid, 0)
         os._exit(1)
 
     signal.signal(signal.SIGTERM, end)
