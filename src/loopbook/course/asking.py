@@ -5,11 +5,11 @@ from typing import Any
 
 from loopbook.course.errors import SheetError
 from loopbook.course.kinds.choice import Choice, as_options
-from loopbook.course.kinds.curve import Curve
+from loopbook.course.kinds.curve import PlottedData
 from loopbook.course.kinds.formula import Formula
 from loopbook.course.kinds.function import Conditions, Function
 from loopbook.course.kinds.kind import Kind
-from loopbook.course.kinds.number import Number, Numbers
+from loopbook.course.kinds.number import OneNumber, SeveralNumbers
 from loopbook.course.kinds.polynomial import Polynomial
 from loopbook.course.question import Asked
 from loopbook.course.session import current
@@ -117,9 +117,9 @@ def _made(
 ) -> Kind:
     match kind:
         case "number":
-            return Number(width, unit, whole=type(value) is int or bool(getattr(value, "is_Integer", False)))
+            return OneNumber(width, unit, whole=type(value) is int or bool(getattr(value, "is_Integer", False)))
         case "numbers":
-            return Numbers(width, len(value), unit, tuple(names.split()), any_order)
+            return SeveralNumbers(width, len(value), unit, tuple(names.split()), any_order)
         case "polynomial":
             return Polynomial(width, symbol, unit)
         case "formula":
@@ -129,7 +129,7 @@ def _made(
         case "choice":
             return Choice(as_options(options), tuple(reasons), reason, unit)
         case "curve":
-            return Curve(width, tuple(float(v) for v in x), unit, of)
+            return PlottedData(width, tuple(float(v) for v in x), unit, of)
         case "function":
             return Function(takes, unit)
     raise SheetError(f"kind is one of {', '.join(KINDS)}, got {kind!r}")

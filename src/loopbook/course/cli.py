@@ -135,7 +135,7 @@ def grade(
     from loopbook.course.grade.grading import grade as run
     from loopbook.course.release.manifest import FILE, read_manifest
     from loopbook.course.release.release import TEACHER
-    from loopbook.course.sandbox.limits import Limits
+    from loopbook.course.sandbox.limits import NotebookLimits
     from loopbook.course.workers import Processes
 
     chosen = tuple(dict.fromkeys(f.strip() for f in formats.split(",") if f.strip()))
@@ -143,7 +143,7 @@ def grade(
         raise UsageError(f"unknown format {', '.join(sorted(unknown))}; one or more of pdf,html")
     folder = (released or _the_release()) / TEACHER
     manifest = read_manifest(folder / FILE)
-    limits = Limits(seconds=seconds)
+    limits = NotebookLimits(seconds=seconds)
     hide = [folder.parent]
     done = run(submissions, output, manifest, folder, Processes(jobs), hide, chosen, keys, limits, _progress("judged"))
     say(f"{len(done.judged)} judged, grades in {output / 'grades.csv'}")

@@ -7,6 +7,7 @@ from typing import Any
 
 from loopbook.course.errors import Redraw, SheetError, Unreadable
 from loopbook.course.question import Asked
+from loopbook.course.shown import Shown
 
 
 @dataclass
@@ -49,8 +50,6 @@ class Session:
 
 def _display(asked: Asked) -> None:
     from IPython.display import display
-
-    from loopbook.course.shown import Shown
 
     display(Shown(asked))
 

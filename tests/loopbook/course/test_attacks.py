@@ -14,13 +14,13 @@ from loopbook.course.release.manifest import Manifest, OfSheet
 from loopbook.course.release.one import runner
 from loopbook.course.release.student import for_screen
 from loopbook.course.sandbox.jail import Jail, NotebookFailed
-from loopbook.course.sandbox.limits import MB, Limits
+from loopbook.course.sandbox.limits import MB, NotebookLimits
 
 pytestmark = [pytest.mark.builds, pytest.mark.skipif(sys.platform != "linux", reason="the walls are Linux's")]
 
 NUMBERS = {"K": 1.7, "T": 17.0}
 RIGHT_ONES = "answers = {'Kc': 1/3, 'rise': 65.917, 'half': 32.958}"
-LIMITS = Limits(seconds=3, call=1, memory=700 * MB)
+LIMITS = NotebookLimits(seconds=3, call=1, memory=700 * MB)
 
 
 @pytest.fixture(scope="module")
@@ -173,7 +173,7 @@ def test_whose_a_notebook_is(tmp_path, sheet_file):
 
 @pytest.fixture(scope="module")
 def jail():
-    made = Jail(limits=Limits(seconds=20, call=0.5))
+    made = Jail(limits=NotebookLimits(seconds=20, call=0.5))
     yield made
     made.close()
 

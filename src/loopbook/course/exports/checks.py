@@ -2,7 +2,7 @@
 
 from loopbook.course.exports.variants import parts
 from loopbook.course.kinds.choice import Choice
-from loopbook.course.kinds.number import Number
+from loopbook.course.kinds.number import OneNumber
 from loopbook.course.question import Asked
 
 
@@ -17,7 +17,7 @@ def check_of(asked: Asked) -> list[str]:
     if isinstance(asked.kind, Choice):
         return [f"assert {given} == {asked.kind.plain(asked.key)!r}, 'this is not the choice'"]
     found = parts(asked)
-    if isinstance(asked.kind, Number):
+    if isinstance(asked.kind, OneNumber):
         found = found[:1]
         return [f"assert abs(float({given}) - {p.key!r}) <= {p.width:.6g}, 'this is not the value'" for p in found]
     if not found:

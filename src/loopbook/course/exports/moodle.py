@@ -6,12 +6,13 @@ sheet has a category of its own with its variants, so that a quiz draws one of t
 
 import re
 from collections.abc import Iterator
+from html import escape
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from loopbook.course.exports.variants import (
     WEAKER,
-    Part,
+    AnswerNumber,
     Variant,
     asking,
     left_out,
@@ -117,7 +118,7 @@ def _fields(asked: Asked) -> Iterator[str]:
         yield f"{label} = {_number(part, asked.points / len(found))}{unit}"
 
 
-def _number(part: Part, points: float) -> str:
+def _number(part: AnswerNumber, points: float) -> str:
     wrong = "".join(f"~%0%{value!r}:{part.width:.6g}#{in_cloze(method)}" for method, value in part.wrong)
     return f"{{{max(1, round(points))}:NUMERICAL:={part.key!r}:{part.width:.6g}{wrong}}}"
 
@@ -137,8 +138,6 @@ def in_cloze(text: str) -> str:
 
 
 def _shown(text: str) -> str:
-    from html import escape
-
     return escape(text, quote=False)
 
 
@@ -155,8 +154,6 @@ def as_html(markdown: str) -> str:
     >>> as_html("$a<b$ is **so**")
     '<p>\\\\(a&lt;b\\\\) is <strong>so</strong></p>'
     """
-    from html import escape
-
     import mistune
 
     kept: list[str] = []

@@ -8,8 +8,8 @@ from typing import Any
 
 from loopbook.course.errors import SheetError
 from loopbook.course.kinds.choice import Choice
-from loopbook.course.kinds.curve import Curve
-from loopbook.course.kinds.number import Number, Numbers
+from loopbook.course.kinds.curve import PlottedData
+from loopbook.course.kinds.number import OneNumber, SeveralNumbers
 from loopbook.course.kinds.polynomial import Polynomial
 from loopbook.course.notebooks import Cell, text_of
 from loopbook.course.question import Asked
@@ -29,7 +29,7 @@ MOST_PARTS = 12
 
 
 @dataclass(frozen=True)
-class Part:
+class AnswerNumber:
     """One number of an answer: label, key, the largest error that is none; wrong: what named wrong methods give."""
 
     label: str
@@ -83,26 +83,30 @@ def variants_of(path: Path, count: int, secret: bytes) -> list[Variant]:
     return found
 
 
-def parts(asked: Asked) -> list[Part]:
+def parts(asked: Asked) -> list[AnswerNumber]:
     """The numbers of an answer; none where it is no number, or too many of them."""
     kind, key = asked.kind, asked.key
     if asked.holds is not None:
         return []
-    if isinstance(kind, Number):
+    if isinstance(kind, OneNumber):
         wrong = tuple((method, value) for method, value in asked.wrong.items())
-        return [Part(asked.name, key, kind.tolerance.width(key) or 0.5, wrong)]
-    if isinstance(kind, Numbers) and not kind.any_order:
+        return [AnswerNumber(asked.name, key, kind.tolerance.width(key) or 0.5, wrong)]
+    if isinstance(kind, SeveralNumbers) and not kind.any_order:
         labels = kind.names or tuple(f"{asked.name} {i}" for i in range(1, kind.count + 1))
         return [
-            Part(n, k, kind.tolerance.width(k, 1e-3 * max(map(abs, key)))) for n, k in zip(labels, key, strict=True)
+            AnswerNumber(n, k, kind.tolerance.width(k, 1e-3 * max(map(abs, key))))
+            for n, k in zip(labels, key, strict=True)
         ]
     if isinstance(kind, Polynomial):
         scale = 1e-2 * max(map(abs, key))
         powers = range(len(key) - 1, -1, -1)
-        return [Part(f"{kind.symbol}^{p}", k, kind.tolerance.width(k, scale)) for p, k in zip(powers, key, strict=True)]
-    if isinstance(kind, Curve) and len(key) <= MOST_PARTS:
+        return [
+            AnswerNumber(f"{kind.symbol}^{p}", k, kind.tolerance.width(k, scale))
+            for p, k in zip(powers, key, strict=True)
+        ]
+    if isinstance(kind, PlottedData) and len(key) <= MOST_PARTS:
         width = kind.tolerance.absolute + kind.tolerance.relative * ((max(key) - min(key)) or abs(key[0]))
-        return [Part(f"{kind.of} = {x:g}", k, width) for x, k in zip(kind.x, key, strict=True)]
+        return [AnswerNumber(f"{kind.of} = {x:g}", k, width) for x, k in zip(kind.x, key, strict=True)]
     return []
 
 

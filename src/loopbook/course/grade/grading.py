@@ -12,7 +12,7 @@ from loopbook.course.grade.one import Graded, GradeJob, grade_one
 from loopbook.course.grade.submissions import Collected, Submission, collect
 from loopbook.course.grade.verdicts import OWN, RIGHT, Judged
 from loopbook.course.release.manifest import Manifest
-from loopbook.course.sandbox.limits import Limits
+from loopbook.course.sandbox.limits import NotebookLimits
 from loopbook.course.workers import Executor
 from notebook_reports.project import atomic
 
@@ -40,7 +40,7 @@ def grade(
     hide: Sequence[Path] = (),
     formats: tuple[str, ...] = ("pdf", "html"),
     keys: bool = False,
-    limits: Limits | None = None,
+    limits: NotebookLimits | None = None,
     tell: Callable[[int, int], None] = lambda done, of: None,
 ) -> Grades:
     """Judge what lies in `folder` and write grades and feedback into `out`. release: the folder of the manifest.
@@ -50,7 +50,7 @@ def grade(
     collected = collect(folder, manifest)
     sheets = {id: _sheet(release / one.source) for id, one in manifest.sheets.items()}
     hidden = tuple(dict.fromkeys(str(p.resolve()) for p in (folder, release, out, *hide)))
-    jobs = [_job(one, sheets, manifest, hidden, formats, keys, limits or Limits()) for one in collected.found]
+    jobs = [_job(one, sheets, manifest, hidden, formats, keys, limits or NotebookLimits()) for one in collected.found]
     done = Grades(unread=list(collected.unread))
     for number, (place, found) in enumerate(executor.run(grade_one, jobs), 1):
         _note(done, out, jobs[place].submission, found)
@@ -69,7 +69,7 @@ def _job(
     hide: tuple[str, ...],
     formats: tuple[str, ...],
     keys: bool,
-    limits: Limits,
+    limits: NotebookLimits,
 ) -> GradeJob:
     numbers = dict(manifest.numbers(one.sheet, one.student))
     return GradeJob(sheets[one.sheet], numbers, one, manifest.students[one.student], hide, limits, formats, keys)

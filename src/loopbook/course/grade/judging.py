@@ -11,7 +11,7 @@ from typing import Any
 from derivations.errors import LoopbookError
 from loopbook.course.errors import SheetError, Unreadable
 from loopbook.course.grade.verdicts import OWN, Given, Judged, judge
-from loopbook.course.kinds.number import Number
+from loopbook.course.kinds.number import OneNumber
 from loopbook.course.question import Asked
 from loopbook.course.running import SheetRunner, Solved
 from loopbook.course.time_limit import time_limit
@@ -73,7 +73,7 @@ def _usable(right: Mapping[str, Asked], given: Mapping[str, Given]) -> dict[str,
             value = asked.kind.read(one.raw)
         except Unreadable:
             continue
-        if isinstance(asked.kind, Number) and asked.key:
+        if isinstance(asked.kind, OneNumber) and asked.key:
             ratio = abs(value / asked.key)
             if not 1 / FARTHEST <= ratio <= FARTHEST:
                 continue

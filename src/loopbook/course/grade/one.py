@@ -1,6 +1,8 @@
 """One student's work on one sheet: the job that grading does many times."""
 
+import atexit
 import functools
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,8 +17,8 @@ from loopbook.course.notebooks import Content, text_of
 from loopbook.course.release.one import as_report, runner
 from loopbook.course.release.student import for_screen
 from loopbook.course.running import SheetRunner, Solved
-from loopbook.course.sandbox.jail import Jail, NotebookFailed, Returned, Running
-from loopbook.course.sandbox.limits import Limits
+from loopbook.course.sandbox.jail import Jail, NotebookFailed, Returned, RunningNotebook
+from loopbook.course.sandbox.limits import NotebookLimits
 from notebook_reports.export.read.solutions import QUESTION
 
 
@@ -29,7 +31,7 @@ class GradeJob:
     submission: Submission
     name: str = ""
     hide: tuple[str, ...] = ()
-    limits: Limits = field(default_factory=Limits)
+    limits: NotebookLimits = field(default_factory=NotebookLimits)
     formats: tuple[str, ...] = ("pdf", "html")
     keys: bool = False
 
@@ -45,11 +47,8 @@ class Graded:
 
 
 @functools.lru_cache(maxsize=1)
-def jail(hide: tuple[str, ...], limits: Limits) -> Jail:
+def jail(hide: tuple[str, ...], limits: NotebookLimits) -> Jail:
     """The jail of this process."""
-    import atexit
-    import os
-
     made = Jail([Path(h) for h in hide], limits, os.getpid() % 10)
     atexit.register(made.close)
     return made
@@ -96,7 +95,7 @@ def _run(ran: SheetRunner, job: GradeJob) -> tuple[list[Judged], list[str], tupl
         running.close()
 
 
-def _given(returned: Returned, running: Running) -> dict[str, Given]:
+def _given(returned: Returned, running: RunningNotebook) -> dict[str, Given]:
     given = {name: Given(value) for name, value in returned.answers.items()}
     given |= {name: Given(functools.partial(running.call, name)) for name in returned.functions}
     return given | {name: Given(refused=why) for name, why in returned.refused.items()}

@@ -13,7 +13,7 @@ from typing import Any
 from loopbook.course.errors import Unreadable
 from loopbook.course.kinds.choice import Choice
 from loopbook.course.kinds.kind import shown_number, with_unit
-from loopbook.course.kinds.number import Number
+from loopbook.course.kinds.number import OneNumber
 from loopbook.course.question import Asked
 
 RIGHT, OWN, ROUNDED, HALF, METHOD, UNIT, SIGN, WRONG, UNREADABLE, MISSING = VERDICTS = (
@@ -117,7 +117,7 @@ def _judged(
 
 def _as_given(asked: Asked, raw: Any, value: Any) -> str:
     """What a student wrote, as people read it: a number with the digits that it has."""
-    if isinstance(asked.kind, Number):
+    if isinstance(asked.kind, OneNumber):
         return with_unit(f"{value:.7g}", asked.kind.unit)
     return shown_raw(raw) if callable(value) else asked.kind.text(value)
 
@@ -144,7 +144,7 @@ def _misled(asked: Asked, value: Any) -> tuple[str, str, str] | None:
     for method, key in asked.wrong.items():
         if kind.same(value, key):
             return METHOD, f"that is the value with this mistake: {method}", method
-    if isinstance(kind, Number) and not kind.whole and asked.key:
+    if isinstance(kind, OneNumber) and not kind.whole and asked.key:
         if kind.same(-value, asked.key):
             return SIGN, "the size is right, the sign is not", "sign"
         for factor, told in FACTORS.items():
@@ -160,7 +160,7 @@ def _rounded(asked: Asked, value: Any) -> bool:
         return False
     if asked.right(value, NEARLY):
         return True
-    if not isinstance(asked.kind, Number) or asked.kind.whole or not value:
+    if not isinstance(asked.kind, OneNumber) or asked.kind.whole or not value:
         return False
     return any(math.isclose(value, float(f"{asked.key:.{digits}g}"), rel_tol=1e-9) for digits in range(FEWEST, 7))
 

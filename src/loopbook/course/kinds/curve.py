@@ -12,7 +12,7 @@ LONGEST = 20_000
 
 
 @dataclass(frozen=True)
-class Curve:
+class PlottedData:
     """The values y at the places x, within a tolerance relative to the curve's span; or [x, y] of the student's own."""
 
     tolerance: Tolerance

@@ -10,7 +10,7 @@ from loopbook.course.tolerance import Tolerance
 
 
 @dataclass(frozen=True)
-class Number:
+class OneNumber:
     """One real number in a unit. whole: the author's value is an integer; then it is not looked for in texts."""
 
     tolerance: Tolerance
@@ -51,7 +51,7 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Numbers:
+class SeveralNumbers:
     """Several real numbers, by name or in order. names: of each; any_order: as roots have none."""
 
     tolerance: Tolerance

@@ -8,6 +8,7 @@ who were there before keep what the manifest holds.
 import hmac
 from collections.abc import Callable, Iterable, Mapping
 from hashlib import sha256
+from math import gcd
 from pathlib import Path
 from typing import Any
 
@@ -109,6 +110,4 @@ class Draw:
 
 
 def _coprime(step: int, count: int) -> bool:
-    from math import gcd
-
     return count == 1 or (step > 0 and gcd(step, count) == 1)

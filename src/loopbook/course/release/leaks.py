@@ -13,6 +13,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
+from xml.etree.ElementTree import TreeBuilder, XMLParser
 
 from loopbook.course.notebooks import COURSE, text_of
 from loopbook.course.release.printed import printed
@@ -166,8 +167,6 @@ def drawing_texts(mime: str, data: Any) -> Iterator[str]:
             found.decode("latin-1") for found in re.findall(rb"(?:tEXt|iTXt|zTXt)(.{0,400})", content, re.DOTALL)
         )
         return
-    from xml.etree.ElementTree import TreeBuilder, XMLParser
-
     parser = XMLParser(target=TreeBuilder(insert_comments=True))
     parser.feed(content)
     yield from _drawn(parser.close())

@@ -13,6 +13,7 @@ from loopbook.course.release.leaks import LeakScanner
 from loopbook.course.release.student import for_paper, for_screen
 from loopbook.course.running import SheetRunner
 from loopbook.course.sheet import Sheet, read_sheet
+from notebook_reports.export.exporters.choose import ExportError, export
 
 
 @dataclass(frozen=True)
@@ -64,8 +65,6 @@ def release_one(job: ReleaseJob) -> ReleaseFiles:
 def as_report(content: Content, sheet: Sheet, format: str, before: str = "") -> bytes:
     """A notebook as PDF or HTML. before: the sheet's title. Raises SheetError for what a page cannot show, by cell."""
     import nbformat
-
-    from notebook_reports.export.exporters.choose import ExportError, export
 
     try:
         return export(nbformat.from_dict(content), format, name=sheet.id, title=f"{before}{sheet.title}")

@@ -10,7 +10,7 @@ from loopbook.course.errors import CourseError, SheetError
 from loopbook.course.notebooks import text_of
 from loopbook.course.release.draw import Draw
 from loopbook.course.release.manifest import FILE, Manifest, OfSheet, read_manifest
-from loopbook.course.release.one import ReleaseFiles, ReleaseJob, runner
+from loopbook.course.release.one import ReleaseFiles, ReleaseJob, release_one, runner
 from loopbook.course.release.printed import printed
 from loopbook.course.release.roster import Student
 from loopbook.course.release.student import for_screen
@@ -112,8 +112,6 @@ def release(
 
     Raises CourseError and SheetError before anything is written.
     """
-    from loopbook.course.release.one import release_one
-
     teacher = out / TEACHER
     before = read_manifest(teacher / FILE) if (teacher / FILE).exists() else Manifest()
     manifest, remarks = assign_numbers(sheets, roster, secret, before)

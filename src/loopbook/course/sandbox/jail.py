@@ -8,6 +8,7 @@ import json
 import math
 import os
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -21,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from derivations.errors import LoopbookError
-from loopbook.course.sandbox.limits import Limits
+from loopbook.course.sandbox.limits import NotebookLimits
 
 ENDING = 5.0
 """Seconds that the processes of a notebook may take to end."""
@@ -45,10 +46,10 @@ class Returned:
     walls: list[str] = field(default_factory=list)
 
 
-class Running:
+class RunningNotebook:
     """One notebook that runs, or whose functions are called."""
 
-    def __init__(self, pid: int, orders: int, replies: int, limits: Limits):
+    def __init__(self, pid: int, orders: int, replies: int, limits: NotebookLimits):
         self._pid, self._orders, self._replies, self._limits = pid, orders, replies, limits
         self._rest = b""
         self._ends = time.monotonic() + limits.seconds
@@ -155,8 +156,8 @@ class Jail:
     """Starts notebooks. hide: folders that none of them may see: keys, other submissions. number: of this jail among
     those that run at a time; each notebook runs as a user of its own."""
 
-    def __init__(self, hide: Sequence[Path] = (), limits: Limits | None = None, number: int = 0):
-        self.limits = limits or Limits()
+    def __init__(self, hide: Sequence[Path] = (), limits: NotebookLimits | None = None, number: int = 0):
+        self.limits = limits or NotebookLimits()
         self._hide = [str(h) for p in hide if (h := p.resolve()).is_dir()]
         source = Path(__file__).parents[3]
         self._needed = list(dict.fromkeys([sys.prefix, sys.base_prefix, str(source), os.path.dirname(os.__file__)]))
@@ -179,7 +180,7 @@ class Jail:
         if self._socket.recv(16) != b"ready":
             raise NotebookFailed("no notebook can be run on this machine: its process does not start")
 
-    def start(self) -> Running:
+    def start(self) -> RunningNotebook:
         """A process for one notebook."""
         self._started += 1
         user = self._number * 400 + self._started % 400
@@ -197,12 +198,10 @@ class Jail:
         os.close(orders_in)
         os.close(replies_out)
         pid = json.loads(self._socket.recv(1 << 12))["pid"]
-        return Running(pid, orders_out, replies_in, self.limits)
+        return RunningNotebook(pid, orders_out, replies_in, self.limits)
 
     def close(self) -> None:
         """End the zygote; remove what notebooks left."""
-        import shutil
-
         self._process.kill()
         self._process.wait()
         self._socket.close()

@@ -7,7 +7,7 @@ MB = 1 << 20
 
 
 @dataclass(frozen=True)
-class Limits:
+class NotebookLimits:
     """seconds: of the clock, for the whole notebook; call: for one call of a function. memory, file: bytes, of the
     process and of all that it writes. processes, open_files: at a time."""
 
