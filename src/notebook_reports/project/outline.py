@@ -7,6 +7,7 @@ subtitle = "Three documents, and every number in them"
 folder = "pid_report"          # of notebooks/
 title = "A report on the PID controller"
 about = "How it works, how it is programmed, how it is tuned."
+order = ["introduction"]       # notebooks that come first; the others follow by their names
 """
 
 from collections.abc import Mapping, Sequence
@@ -71,5 +72,16 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
     wrong += [f"{where}: no notebook in notebooks/{folder}" for folder in folders if folder not in held]
     if wrong:
         raise UsageError("; ".join(sorted(wrong)))
-    parts = [Part(*named_part, tuple(e for e in entries if e["folder"] == named_part[0])) for named_part in named]
+    orders = {part["folder"]: part.get("order", []) for part in tables(content, "part", where)}
+    parts = [Part(*told, _ordered([e for e in entries if e["folder"] == told[0]], orders[told[0]])) for told in named]
     return Outline(title, subtitle, tuple(parts))
+
+
+def _ordered(entries: Sequence[Entry], order: Any) -> tuple[Entry, ...]:
+    """The entries that are named first, then the others. Raises UsageError for a name that is none of them."""
+    names = [str(entry["id"]).rpartition("/")[2] for entry in entries]
+    wrong = [name for name in order if name not in names] if isinstance(order, list) else ["which is no list"]
+    if wrong:
+        raise UsageError(f"notebooks/{FILE}: order names {', '.join(map(str, wrong))}; there are {', '.join(names)}")
+    place = {name: i for i, name in enumerate(order)}
+    return tuple(sorted(entries, key=lambda e: place.get(str(e["id"]).rpartition("/")[2], len(place))))

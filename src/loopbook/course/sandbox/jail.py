@@ -157,6 +157,8 @@ class Jail:
     those that run at a time; each notebook runs as a user of its own."""
 
     def __init__(self, hide: Sequence[Path] = (), limits: NotebookLimits | None = None, number: int = 0):
+        if sys.platform != "linux":
+            raise NotebookFailed("notebooks are run on Linux only: type the answers into a CSV, or grade on Linux")
         self.limits = limits or NotebookLimits()
         self._hide = [str(h) for p in hide if (h := p.resolve()).is_dir()]
         source = Path(__file__).parents[3]
