@@ -7,7 +7,7 @@ from typing import Any
 
 from derivations.algebra.rational import vanishes
 from loopbook.course.errors import SheetError, Unreadable
-from notebook_reports.formula.names import sample
+from notebook_reports.formula.names import sample_point
 from notebook_reports.formula.read import FormulaError, read_formula
 
 _SAMPLE = re.compile(r"(\w+)\[k([+-]\d+)?\]")
@@ -45,7 +45,7 @@ class Formula:
     def samples(self) -> dict[tuple[str, int], Any]:
         found = [_SAMPLE.fullmatch(name) for name in self.symbols.split()]
         pairs = [(m[1], int(m[2] or 0)) for m in found if m]
-        return {pair: sample(*pair) for pair in pairs}
+        return {pair: sample_point(*pair) for pair in pairs}
 
     def key(self, value: Any) -> Any:
         if isinstance(value, str):
