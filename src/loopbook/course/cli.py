@@ -103,14 +103,14 @@ def release(
     """
     from loopbook.course.release.draw import read_secret
     from loopbook.course.release.release import read_sheets
-    from loopbook.course.release.release import release as run
+    from loopbook.course.release.release import release as release_all
     from loopbook.course.release.roster import read_roster
     from loopbook.course.workers import Processes
 
     roster = read_roster(students)
     key = read_secret(secret_file, _repository(output))
     found = read_sheets([sheet_path(name) for name in sheets])
-    done = run(found, roster, key, output, Processes(jobs), not no_pdf, zips, _progress("released"))
+    done = release_all(found, roster, key, output, Processes(jobs), not no_pdf, zips, _progress("released"))
     for line in (*done.remarks, *done.problems):
         say(line, err=True)
     say(f"{done.students} students, {done.files} files in {output}")
@@ -132,7 +132,7 @@ def grade(
     submissions: Path, output: Path, released: Path | None, keys: bool, formats: str, seconds: float, jobs: int | None
 ) -> None:
     """Judge the notebooks and CSVs in SUBMISSIONS: feedback for each student, grades.csv for the class."""
-    from loopbook.course.grade.grading import grade as run
+    from loopbook.course.grade.grading import grade as grade_all
     from loopbook.course.release.manifest import FILE, read_manifest
     from loopbook.course.release.release import TEACHER
     from loopbook.course.sandbox.limits import NotebookLimits
@@ -145,7 +145,9 @@ def grade(
     manifest = read_manifest(folder / FILE)
     limits = NotebookLimits(seconds=seconds)
     hide = [folder.parent]
-    done = run(submissions, output, manifest, folder, Processes(jobs), hide, chosen, keys, limits, _progress("judged"))
+    done = grade_all(
+        submissions, output, manifest, folder, Processes(jobs), hide, chosen, keys, limits, _progress("judged")
+    )
     say(f"{len(done.judged)} judged, grades in {output / 'grades.csv'}")
     for file, what in done.unread:
         say(f"{file}: {what}", err=True)
@@ -165,11 +167,11 @@ def grade(
 @usable
 def export(sheet: str, form: str, output: Path, variants: int, secret_file: Path | None) -> None:
     """A SHEET's questions with keys for another system: a weaker check than `grade`, as the files themselves say."""
-    from loopbook.course.exports.export import export as run
+    from loopbook.course.exports.export import export_sheet
     from loopbook.course.release.draw import read_secret
 
     key = read_secret(secret_file) if secret_file else b"loopbook public variants"
-    for path in run(sheet_path(sheet), form, output, variants, key):
+    for path in export_sheet(sheet_path(sheet), form, output, variants, key):
         say(f"{path}")
 
 

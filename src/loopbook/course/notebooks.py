@@ -9,13 +9,13 @@ Content = dict[str, Any]
 COURSE = "course"
 
 
-def prose(text: str, id: str, tags: Sequence[str] = (), attachments: dict[str, Any] | None = None) -> Cell:
+def prose_cell(text: str, id: str, tags: Sequence[str] = (), attachments: dict[str, Any] | None = None) -> Cell:
     """A Markdown cell."""
     cell: Cell = {"cell_type": "markdown", "id": id, "metadata": {"tags": list(tags)} if tags else {}, "source": text}
     return {**cell, "attachments": attachments} if attachments else cell
 
 
-def code(text: str, id: str, outputs: Sequence[Any] = (), tags: Sequence[str] = ()) -> Cell:
+def code_cell(text: str, id: str, outputs: Sequence[Any] = (), tags: Sequence[str] = ()) -> Cell:
     """A code cell; one with outputs has run."""
     return {
         "cell_type": "code",
@@ -43,7 +43,7 @@ def as_bytes(content: Content) -> bytes:
     return (json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode()
 
 
-def text_of(cell: Cell) -> str:
+def source_of(cell: Cell) -> str:
     """The source of a cell as one text."""
     source = cell.get("source", "")
     return source if isinstance(source, str) else "".join(source)

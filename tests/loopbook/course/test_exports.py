@@ -9,14 +9,14 @@ from html.parser import HTMLParser
 import pytest
 
 from loopbook.course.exports.checks import check_of
-from loopbook.course.exports.export import export
+from loopbook.course.exports.export import export_sheet
 from loopbook.course.exports.gift import gift
 from loopbook.course.exports.moodle import moodle
 from loopbook.course.exports.nbgrader import nbgrader
 from loopbook.course.exports.otter import otter
 from loopbook.course.exports.plain_table import plain_table
 from loopbook.course.exports.variants import left_out, stands_alone, variants_of
-from loopbook.course.notebooks import as_bytes, text_of
+from loopbook.course.notebooks import as_bytes, source_of
 
 KEY = b"variants to be exported"
 FIELD = re.compile(r"\{(\d*):(NUMERICAL|MULTICHOICE_V):((?:[^\\}]|\\.)*)\}")  # as Moodle's qtype_multianswer reads it
@@ -148,7 +148,7 @@ def test_masters_for_nbgrader_and_otter_check_what_a_line_can_check(variants):
     assert all(g["schema_version"] == 3 and g["locked"] for g in graded) and sum(g["points"] for g in graded) == 7
     text = as_bytes(otter("lag", variant)).decode()
     assert text.count("# BEGIN QUESTION") == 5 and "weaker check" in text
-    solution = next(text_of(c) for c in cells if "BEGIN SOLUTION" in text_of(c))
+    solution = next(source_of(c) for c in cells if "BEGIN SOLUTION" in source_of(c))
     for right in (True, False):
         space = {}
         exec(solution, space)
@@ -165,9 +165,9 @@ def test_masters_for_nbgrader_and_otter_check_what_a_line_can_check(variants):
 
 def test_files_by_name_and_variant(sheet_file, tmp_path):
     path = sheet_file()
-    assert export(path, "gift", tmp_path / "q.gift", 2, KEY) == [tmp_path / "q.gift"]
-    found = export(path, "otter", tmp_path / "o", 2, KEY)
+    assert export_sheet(path, "gift", tmp_path / "q.gift", 2, KEY) == [tmp_path / "q.gift"]
+    found = export_sheet(path, "otter", tmp_path / "o", 2, KEY)
     assert [p.relative_to(tmp_path / "o").as_posix() for p in found] == ["lag-1/lag.ipynb", "lag-2/lag.ipynb"]
     assert found[0].read_bytes() != found[1].read_bytes()
-    again = export(path, "moodle", tmp_path / "m", 40, KEY)[0]
+    again = export_sheet(path, "moodle", tmp_path / "m", 40, KEY)[0]
     assert again.name == "lag.xml" and again.read_bytes().count(b'type="cloze"') == 12

@@ -7,7 +7,7 @@ import zipfile
 
 import pytest
 
-from loopbook.course.notebooks import as_bytes, text_of
+from loopbook.course.notebooks import as_bytes, source_of
 from loopbook.course.release.leaks import LeakScanner
 from loopbook.course.release.one import ReleaseJob, as_report, release_one, runner
 from loopbook.course.release.student import for_paper, for_screen
@@ -48,7 +48,7 @@ def screen(ran, solved):
 
 
 def test_a_student_gets_texts_figure_places_for_answers_and_nothing_else(screen, scan):
-    texts = [text_of(c) for c in screen["cells"]]
+    texts = [source_of(c) for c in screen["cells"]]
     whole = "\n".join(texts)
     assert "The process $1.700/(17.00 s + 1)$" in whole and "![A curve that rises](attachment:c4-1.svg)" in whole
     assert "<details><summary>Hint</summary>\n\nThe logarithm of nine." in whole
@@ -67,7 +67,7 @@ def test_two_releases_are_equal_byte_by_byte(ran, sheet_file):
     assert one == two and not one.leaks
     assert set(one.student) == set(one.teacher) == {"lag.ipynb", "lag.pdf"}
     key = json.loads(one.teacher["lag.ipynb"])
-    assert "K: float = 1.7  # {1.7, 2.3, 3.1}" in [text_of(c).splitlines()[0] for c in key["cells"]]
+    assert "K: float = 1.7  # {1.7, 2.3, 3.1}" in [source_of(c).splitlines()[0] for c in key["cells"]]
     assert one.keys["Kc"] == pytest.approx(1 / 3) and "**0.333**" in json.dumps(key)
     assert zipped(one.student) == zipped(dict(reversed(one.student.items())))
 

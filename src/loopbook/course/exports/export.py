@@ -16,7 +16,7 @@ FILES = {"moodle": (moodle, "xml"), "gift": (gift, "gift"), "csv": (plain_table,
 NOTEBOOKS = {"nbgrader": nbgrader, "otter": otter}
 
 
-def export(path: Path, form: str, output: Path, count: int, secret: bytes) -> list[Path]:
+def export_sheet(path: Path, form: str, output: Path, count: int, secret: bytes) -> list[Path]:
     """Write the files; their paths. output: a folder, or for one file its name.
 
     nbgrader and otter take one notebook for everybody: of them each variant gets a folder. Raises SheetError.

@@ -4,7 +4,7 @@ import re
 
 from loopbook.course.exports.variants import WEAKER, Variant, left_out, parts, plain_text
 from loopbook.course.kinds.choice import Choice
-from loopbook.course.notebooks import text_of
+from loopbook.course.notebooks import source_of
 
 _SPECIAL = re.compile(r"([~=#{}:\\])")
 
@@ -16,7 +16,7 @@ def gift(sheet: str, variants: list[Variant]) -> bytes:
         lines.insert(1, f"// Not asked here: {', '.join(missing)}.")
     for variant in variants:
         for place, cell, asked in variant.questions():
-            text = f"{plain_text(variant.intro)}\n\n{text_of(cell)}"
+            text = f"{plain_text(variant.intro)}\n\n{source_of(cell)}"
             for one in asked:
                 title = f"{sheet}, variant {variant.number}, question {place}, {one.name}"
                 for part in parts(one):

@@ -3,7 +3,7 @@
 from loopbook.course.exports.variants import Variant
 from loopbook.course.grade.grading import as_csv
 from loopbook.course.grade.verdicts import shown_raw
-from loopbook.course.notebooks import text_of
+from loopbook.course.notebooks import source_of
 
 HEAD = [
     "sheet",
@@ -40,7 +40,7 @@ def plain_table(sheet: str, variants: list[Variant]) -> bytes:
                         "conditions" if one.holds else str(tolerance or "exact"),
                         f"{one.points:g}",
                         wrong,
-                        text_of(cell),
+                        source_of(cell),
                     ]
                 )
     return as_csv(rows)

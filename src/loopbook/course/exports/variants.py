@@ -11,7 +11,7 @@ from loopbook.course.kinds.choice import Choice
 from loopbook.course.kinds.curve import PlottedData
 from loopbook.course.kinds.number import OneNumber, SeveralNumbers
 from loopbook.course.kinds.polynomial import Polynomial
-from loopbook.course.notebooks import Cell, text_of
+from loopbook.course.notebooks import Cell, source_of
 from loopbook.course.question import Asked
 from loopbook.course.release.draw import Draw
 from loopbook.course.release.one import runner
@@ -117,12 +117,12 @@ def left_out(variant: Variant) -> list[str]:
 
 def plain_text(cells: list[Cell]) -> str:
     """The prose of several cells as one Markdown text."""
-    return "\n\n".join(text_of(cell) for cell in cells)
+    return "\n\n".join(source_of(cell) for cell in cells)
 
 
 def asking(cell: Cell) -> str:
     """The text of a question without the lines that say how a notebook is answered."""
-    return re.sub(r"\n+(?:→ |- [a-z]\) ).*", "", text_of(cell))
+    return re.sub(r"\n+(?:→ |- [a-z]\) ).*", "", source_of(cell))
 
 
 def stands_alone(variant: Variant, asked: Asked) -> bool:

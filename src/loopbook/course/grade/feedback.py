@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from loopbook.course.grade.verdicts import MARKS, Judged
-from loopbook.course.notebooks import Cell, Content, code, notebook, prose
+from loopbook.course.notebooks import Cell, Content, code_cell, notebook, prose_cell
 from loopbook.course.sheet import Sheet
 from loopbook.course.shown import points
 from notebook_reports.display import Table, literal
@@ -17,20 +17,20 @@ def feedback(
     total, of = sum(j.points for j in judged), sum(j.of for j in judged)
     who = f"**{literal(student)}**" + (f" ({literal(name)})" if name else "")
     cells: list[Cell] = [
-        prose(f"# Feedback: {sheet.title}", "title"),
-        prose(f"{who}, sheet `{sheet.id}`: **{total:g} of {points(of)}**.", "sum"),
-        code("", "verdicts", [_output(verdicts(judged, keys))], [GIVEN]),
+        prose_cell(f"# Feedback: {sheet.title}", "title"),
+        prose_cell(f"{who}, sheet `{sheet.id}`: **{total:g} of {points(of)}**.", "sum"),
+        code_cell("", "verdicts", [_output(verdicts(judged, keys))], [GIVEN]),
     ]
     if any(j.own for j in judged):
         cells.append(
-            prose(
+            prose_cell(
                 "What follows from an earlier value of your own is judged from that value: a mistake costs its points "
                 "once.",
                 "own",
             )
         )
     if remarks:
-        cells.append(prose("\n".join(f"- {literal(remark)}" for remark in remarks), "remarks"))
+        cells.append(prose_cell("\n".join(f"- {literal(remark)}" for remark in remarks), "remarks"))
     return notebook(cells, {"contents": False})
 
 

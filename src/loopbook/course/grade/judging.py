@@ -10,7 +10,7 @@ from typing import Any
 
 from derivations.errors import LoopbookError
 from loopbook.course.errors import SheetError, Unreadable
-from loopbook.course.grade.verdicts import OWN, Given, Judged, judge
+from loopbook.course.grade.verdicts import OWN, Given, Judged, judge_answer
 from loopbook.course.kinds.number import OneNumber
 from loopbook.course.question import Asked
 from loopbook.course.running import SheetRunner, Solved
@@ -56,9 +56,9 @@ def judge_all(ran: SheetRunner, numbers: Mapping[str, Any], given: Mapping[str, 
         names = _decisive(runs, right, earlier, name, found) if own is not None else []
         try:
             with time_limit(SECONDS):
-                found[name] = judge(asked, given.get(name, Given()), own if names else None, names)
+                found[name] = judge_answer(asked, given.get(name, Given()), own if names else None, names)
         except TimeoutError:
-            found[name] = judge(asked, Given(refused="comparing it takes too long; write it shorter"))
+            found[name] = judge_answer(asked, Given(refused="comparing it takes too long; write it shorter"))
     return solved, list(found.values())
 
 

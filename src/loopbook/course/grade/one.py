@@ -10,10 +10,10 @@ from typing import Any
 
 from loopbook.course.grade.feedback import feedback
 from loopbook.course.grade.judging import judge_all
-from loopbook.course.grade.submissions import Submission, changed
+from loopbook.course.grade.submissions import Submission, changed_texts
 from loopbook.course.grade.typed import from_typed
 from loopbook.course.grade.verdicts import Given, Judged
-from loopbook.course.notebooks import Content, text_of
+from loopbook.course.notebooks import Content, source_of
 from loopbook.course.release.one import as_report, runner
 from loopbook.course.release.student import for_screen
 from loopbook.course.running import SheetRunner, Solved
@@ -104,8 +104,8 @@ def _given(returned: Returned, running: RunningNotebook) -> dict[str, Given]:
 def _edited(ran: SheetRunner, job: GradeJob) -> list[str]:
     """What of the texts was changed; the judgement goes by the release in any case."""
     released = for_screen(ran.sheet, ran.solve(job.numbers, show="texts", strict=False), job.submission.student)
-    questions = [(c["id"], text_of(c)) for c in released["cells"] if QUESTION in c["metadata"].get("tags", ())]
-    cells = changed(job.submission.texts, questions)
+    questions = [(c["id"], source_of(c)) for c in released["cells"] if QUESTION in c["metadata"].get("tags", ())]
+    cells = changed_texts(job.submission.texts, questions)
     told = "the numbers of the release hold"
     return [f"the text of {', '.join(cells)} is not the one that was released; {told}"] if cells else []
 

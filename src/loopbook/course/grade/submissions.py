@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from loopbook.course.errors import CourseError
-from loopbook.course.notebooks import COURSE, text_of
+from loopbook.course.notebooks import COURSE, source_of
 from loopbook.course.release.manifest import Manifest
 from loopbook.course.release.roster import id_column, plain_name, read_table
 
@@ -81,7 +81,7 @@ def _notebook(path: Path, name: str, manifest: Manifest) -> Submission:
     try:
         content = json.loads(path.read_bytes())
         cells = content["cells"]
-        kinds = [(c["cell_type"], str(c.get("id", "")), text_of(c)) for c in cells]
+        kinds = [(c["cell_type"], str(c.get("id", "")), source_of(c)) for c in cells]
         told = content.get("metadata", {}).get("loopbook", {}).get(COURSE, {})
         told = told if isinstance(told, dict) else {}
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
@@ -138,6 +138,6 @@ def _table(path: Path, name: str, manifest: Manifest) -> list[Submission]:
     return found
 
 
-def changed(texts: Mapping[str, str], expected: Sequence[tuple[str, str]]) -> list[str]:
+def changed_texts(texts: Mapping[str, str], expected: Sequence[tuple[str, str]]) -> list[str]:
     """The ids of cells of which a student's text is not the one that was released."""
     return [id for id, text in expected if id in texts and " ".join(texts[id].split()) != " ".join(text.split())]

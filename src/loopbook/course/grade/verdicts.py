@@ -71,7 +71,7 @@ class Given:
     refused: str = ""
 
 
-def judge(asked: Asked, given: Given, from_own: Asked | None = None, own: Sequence[str] = ()) -> Judged:
+def judge_answer(asked: Asked, given: Given, from_own: Asked | None = None, own: Sequence[str] = ()) -> Judged:
     """The verdict on one answer.
 
     asked: with the key from the right values; from_own: with the one that follows from the student's own, where that

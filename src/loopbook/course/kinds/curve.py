@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from loopbook.course.errors import SheetError, Unreadable
-from loopbook.course.kinds.kind import finite, real, shown_number, with_unit
+from loopbook.course.kinds.kind import finite_number, real_number, shown_number, with_unit
 from loopbook.course.tolerance import Tolerance
 
 LONGEST = 20_000
@@ -21,7 +21,7 @@ class PlottedData:
     of: str = "x"
 
     def key(self, value: Any) -> tuple[float, ...]:
-        found = tuple(real(v, "a value of the curve") for v in value)
+        found = tuple(real_number(v, "a value of the curve") for v in value)
         if len(found) != len(self.x) or len(found) < 2:
             raise SheetError(f"the curve has {len(found)} values at {len(self.x)} places")
         if list(self.x) != sorted(set(self.x)):
@@ -37,12 +37,12 @@ class PlottedData:
             return self._on_our_places(*raw)
         if len(raw) != len(self.x):
             raise Unreadable(f"{len(self.x)} values are asked for, {len(raw)} are given")
-        return tuple(finite(v) for v in raw)
+        return tuple(finite_number(v) for v in raw)
 
     def _on_our_places(self, x: list[Any], y: list[Any]) -> tuple[float, ...]:
         import numpy as np
 
-        xs, ys = [finite(v) for v in x], [finite(v) for v in y]
+        xs, ys = [finite_number(v) for v in x], [finite_number(v) for v in y]
         if len(xs) != len(ys) or len(xs) < 2:
             raise Unreadable(f"{len(xs)} places and {len(ys)} values are no curve")
         if xs != sorted(xs):

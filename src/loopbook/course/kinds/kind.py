@@ -42,12 +42,12 @@ class Kind(Protocol):
         """The numbers that give the answer away where they are printed."""
 
 
-def finite(raw: Any) -> float:
+def finite_number(raw: Any) -> float:
     """A plain finite number. Raises Unreadable with what is wrong with it, for a student.
 
-    >>> finite(3)
+    >>> finite_number(3)
     3.0
-    >>> finite("1,23")
+    >>> finite_number("1,23")
     Traceback (most recent call last):
     ...
     loopbook.course.errors.Unreadable: "1,23" is a text, not a number: write 1.23, without quotes
@@ -92,7 +92,7 @@ def _named(raw: Any) -> str:
     return names.get(type(raw), f"a {type(raw).__name__}")
 
 
-def real(value: Any, what: str) -> float:
+def real_number(value: Any, what: str) -> float:
     """A number of the author's as a float, also of NumPy and SymPy. Raises SheetError."""
     try:
         found = float(value)

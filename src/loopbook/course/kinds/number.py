@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from loopbook.course.errors import SheetError, Unreadable
-from loopbook.course.kinds.kind import finite, real, shown_number, with_unit
+from loopbook.course.kinds.kind import finite_number, real_number, shown_number, with_unit
 from loopbook.course.tolerance import Tolerance
 
 
@@ -18,10 +18,10 @@ class OneNumber:
     whole: bool = False
 
     def key(self, value: Any) -> float:
-        return real(value, "the value")
+        return real_number(value, "the value")
 
     def read(self, raw: Any) -> float:
-        return finite(raw)
+        return finite_number(raw)
 
     def same(self, given: float, key: float, widths: float = 1.0) -> bool:
         return self.tolerance.within(given, key, widths)
@@ -63,7 +63,7 @@ class SeveralNumbers:
     def key(self, value: Any) -> tuple[float, ...]:
         if len(list(value)) != self.count:
             raise SheetError(f"{self.count} numbers are asked for, the value has {len(list(value))}")
-        return tuple(real(v, "a value") for v in value)
+        return tuple(real_number(v, "a value") for v in value)
 
     def read(self, raw: Any) -> tuple[float, ...]:
         if raw is None or raw == []:
@@ -72,7 +72,7 @@ class SeveralNumbers:
             raise Unreadable(f"{self.count} numbers are asked for, in square brackets")
         if len(raw) != self.count:
             raise Unreadable(f"{self.count} numbers are asked for, {len(raw)} are given")
-        return tuple(finite(v) for v in raw)
+        return tuple(finite_number(v) for v in raw)
 
     def same(self, given: Sequence[float], key: Sequence[float], widths: float = 1.0) -> bool:
         pairs = zip(sorted(given), sorted(key), strict=True) if self.any_order else zip(given, key, strict=True)

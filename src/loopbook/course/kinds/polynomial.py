@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from loopbook.course.errors import SheetError, Unreadable
-from loopbook.course.kinds.kind import finite, real, shown_number
+from loopbook.course.kinds.kind import finite_number, real_number, shown_number
 from loopbook.course.tolerance import Tolerance
 from notebook_reports.formula.read import FormulaError, read_formula
 
@@ -25,7 +25,7 @@ class Polynomial:
     def key(self, value: Any) -> tuple[float, ...]:
         if hasattr(value, "free_symbols"):
             value = _coefficients(value, self.symbol)
-        found = _trimmed([real(v, "a coefficient") for v in value])
+        found = _trimmed([real_number(v, "a coefficient") for v in value])
         if not found:
             raise SheetError("the zero polynomial is no answer")
         return found
@@ -34,14 +34,14 @@ class Polynomial:
         if raw is None or raw in ("", []):
             raise Unreadable("nothing was written")
         if isinstance(raw, list):
-            return _trimmed([finite(v) for v in raw])
+            return _trimmed([finite_number(v) for v in raw])
         if not isinstance(raw, str):
             raise Unreadable(f"a polynomial is asked for: coefficients in square brackets, or a text in {self.symbol}")
         import sympy
 
         try:
             expression = read_formula(raw, {self.symbol: sympy.Symbol(self.symbol)})
-            return _trimmed([finite(float(c)) for c in _coefficients(expression, self.symbol)])
+            return _trimmed([finite_number(float(c)) for c in _coefficients(expression, self.symbol)])
         except FormulaError as error:
             raise Unreadable(f"this is no polynomial: at character {error.position + 1}: {error.reason}") from None
         except SheetError as error:

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from loopbook.course.notebooks import Cell, Content, code, notebook, prose
+from loopbook.course.notebooks import Cell, Content, code_cell, notebook, prose_cell
 from loopbook.course.running import Solved
 from loopbook.course.sheet import PARAMETERS, Sheet
 from notebook_reports.run.filled import fill
@@ -13,12 +13,12 @@ def key_notebook(sheet: Sheet, solved: Solved, student: str) -> Content:
     cells: list[Cell] = []
     for cell in sheet.cells:
         if cell.kind == "markdown":
-            cells.append(prose(fill(cell.text, solved.parameters), cell.id, cell.tags))
+            cells.append(prose_cell(fill(cell.text, solved.parameters), cell.id, cell.tags))
         elif PARAMETERS in cell.tags:
-            cells.append(code(_assigned(sheet, solved), cell.id, tags=cell.tags))
+            cells.append(code_cell(_assigned(sheet, solved), cell.id, tags=cell.tags))
         else:
-            cells.append(code(cell.text, cell.id, solved.outputs.get(cell.number, ()), cell.tags))
-    cells.insert(1, prose(f"Key of sheet `{sheet.id}` for **{student}**.", "whose"))
+            cells.append(code_cell(cell.text, cell.id, solved.outputs.get(cell.number, ()), cell.tags))
+    cells.insert(1, prose_cell(f"Key of sheet `{sheet.id}` for **{student}**.", "whose"))
     return notebook(cells, {"contents": False})
 
 

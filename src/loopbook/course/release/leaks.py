@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Any
 from xml.etree.ElementTree import TreeBuilder, XMLParser
 
-from loopbook.course.notebooks import COURSE, text_of
-from loopbook.course.release.printed import printed
+from loopbook.course.notebooks import COURSE, source_of
+from loopbook.course.release.printed import printed_answer
 from loopbook.course.release.student import ANSWERS, answers_cell
 from loopbook.course.running import Solved
 from loopbook.course.sheet import Sheet
@@ -73,7 +73,7 @@ class LeakScanner:
     def _notebook(self, content: bytes) -> Iterator[str]:
         notebook = json.loads(content)
         yield from self._places(notebook)
-        texts = [text_of(cell) for cell in notebook["cells"]]
+        texts = [source_of(cell) for cell in notebook["cells"]]
         for cell in notebook["cells"]:
             for bundle in (cell.get("attachments") or {}).values():
                 texts += [text for mime, data in bundle.items() for text in drawing_texts(mime, data)]
@@ -95,7 +95,7 @@ class LeakScanner:
             if cell.get("outputs"):
                 yield f"{where}: an output"
             expected = answers_cell(self.solved) if cell.get("id") == ANSWERS else ""
-            if cell["cell_type"] == "code" and text_of(cell) != expected:
+            if cell["cell_type"] == "code" and source_of(cell) != expected:
                 yield f"{where}: code that a release does not have"
             if any(set(bundle) != {"image/svg+xml"} for bundle in (cell.get("attachments") or {}).values()):
                 yield f"{where}: an attachment that is no drawing"
@@ -111,7 +111,7 @@ class LeakScanner:
         yield from self._said([*_by_line(content), *metadata, *told], b"".join(streams))
 
     def _said(self, texts: list[str], raw: bytes) -> Iterator[str]:
-        if answer := printed(self.solved.asked.values(), texts):
+        if answer := printed_answer(self.solved.asked.values(), texts):
             yield f"the answer {answer} is printed"
         if any(form in raw for form in secret_forms(self.secret)):
             yield "the course's secret"

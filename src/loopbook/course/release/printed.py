@@ -21,7 +21,7 @@ def numbers_in(text: str) -> Iterator[float]:
         yield float(found[0].replace(",", ".").replace("−", "-"))
 
 
-def printed(asked: Iterable[Asked], texts: Iterable[str]) -> str:
+def printed_answer(asked: Iterable[Asked], texts: Iterable[str]) -> str:
     """The name of an answer that can be read off the texts, or "": all of its numbers stand in them, within tolerance.
 
     The numbers of pages and questions count as printed everywhere. An answer that is a whole number is not looked for.

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from loopbook.course.errors import CourseError, SheetError
-from loopbook.course.notebooks import text_of
+from loopbook.course.notebooks import source_of
 from loopbook.course.release.draw import Draw
 from loopbook.course.release.manifest import FILE, Manifest, OfSheet, read_manifest
 from loopbook.course.release.one import ReleaseFiles, ReleaseJob, release_one, runner
-from loopbook.course.release.printed import printed
+from loopbook.course.release.printed import printed_answer
 from loopbook.course.release.roster import Student
 from loopbook.course.release.student import for_screen
 from loopbook.course.release.variants import Variants
@@ -39,8 +39,8 @@ def why_not(ran: SheetRunner, numbers: dict[str, Any]) -> str:
     solved = ran.solve(numbers, show="texts")
     if solved.redraw:
         return solved.redraw
-    texts = [text_of(c) for c in for_screen(ran.sheet, solved, "")["cells"] if c["cell_type"] == "markdown"]
-    name = printed(solved.asked.values(), texts)
+    texts = [source_of(c) for c in for_screen(ran.sheet, solved, "")["cells"] if c["cell_type"] == "markdown"]
+    name = printed_answer(solved.asked.values(), texts)
     return f"the answer {name} stands in the text" if name else ""
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from loopbook.course.kinds.choice import Choice
-from loopbook.course.notebooks import COURSE, Cell, Content, code, notebook, prose
+from loopbook.course.notebooks import COURSE, Cell, Content, code_cell, notebook, prose_cell
 from loopbook.course.question import Asked
 from loopbook.course.running import Solved
 from loopbook.course.sheet import Sheet
@@ -34,15 +34,15 @@ def for_screen(sheet: Sheet, solved: Solved, student: str) -> Content:
             cells += _as_prose(cell, solved)
         elif HINT in cell.tags:
             text = f"<details><summary>Hint</summary>\n\n{fill(cell.text, solved.parameters)}\n\n</details>"
-            cells.append(prose(text, cell.id, cell.tags))
+            cells.append(prose_cell(text, cell.id, cell.tags))
         else:
             cells.append(_text(sheet, cell, solved))
             if QUESTION in cell.tags:
-                cells.append(code("", f"work-{cell.id}"))
+                cells.append(code_cell("", f"work-{cell.id}"))
     total = points(sum(a.points for a in solved.asked.values()))
-    cells.insert(1, prose(f"Sheet `{sheet.id}` for **{literal(student)}**, {total}.", "whose"))
-    cells.append(prose(f"## Your answers\n\n{READ_THIS}", "how-to-answer"))
-    cells.append(code(answers_cell(solved), ANSWERS))
+    cells.insert(1, prose_cell(f"Sheet `{sheet.id}` for **{literal(student)}**, {total}.", "whose"))
+    cells.append(prose_cell(f"## Your answers\n\n{READ_THIS}", "how-to-answer"))
+    cells.append(code_cell(answers_cell(solved), ANSWERS))
     return notebook(cells, {COURSE: {"sheet": sheet.id, "student": student}})
 
 
@@ -52,22 +52,24 @@ def for_paper(sheet: Sheet, solved: Solved, student: str) -> Content:
     hints: list[Cell] = []
     for cell in sheet.seen:
         if GIVEN in cell.tags:
-            cells.append(code("", cell.id, solved.outputs.get(cell.number, ()), [GIVEN]))
+            cells.append(code_cell("", cell.id, solved.outputs.get(cell.number, ()), [GIVEN]))
         elif HINT in cell.tags:
-            hints.append(prose(fill(cell.text, solved.parameters), cell.id))
+            hints.append(prose_cell(fill(cell.text, solved.parameters), cell.id))
         else:
             cells.append(_text(sheet, cell, solved))
     total = points(sum(a.points for a in solved.asked.values()))
     cells.insert(
         1,
-        prose(f"Sheet `{sheet.id}` for **{literal(student)}**, {total}. Date: \\_\\_\\_\\_\\_\\_\\_\\_\\_\\_", "whose"),
+        prose_cell(
+            f"Sheet `{sheet.id}` for **{literal(student)}**, {total}. Date: \\_\\_\\_\\_\\_\\_\\_\\_\\_\\_", "whose"
+        ),
     )
     rows = [[f"`{a.name}`", literal(a.kind.unit), " " * 40] for a in solved.asked.values()]
     table = Table(["answer", "unit", "your value"], rows, "Your answers", ["left", "left", "left"])
-    cells.append(prose("## Your answers", "how-to-answer"))
-    cells.append(code("", ANSWERS, [_table_output(table)], [GIVEN]))
+    cells.append(prose_cell("## Your answers", "how-to-answer"))
+    cells.append(code_cell("", ANSWERS, [_table_output(table)], [GIVEN]))
     if hints:
-        cells += [prose("## Hints", "hints"), *hints]
+        cells += [prose_cell("## Hints", "hints"), *hints]
     return notebook(cells, {"contents": False})
 
 
@@ -88,7 +90,7 @@ def _text(sheet: Sheet, cell: SourceCell, solved: Solved) -> Cell:
     if QUESTION in cell.tags:
         mine = [a for a in solved.asked.values() if sheet.question_of(a.cell) == cell.number]
         text += "\n\n" + "\n\n".join(line for a in mine for line in _asks(a))
-    return prose(text, cell.id, cell.tags)
+    return prose_cell(text, cell.id, cell.tags)
 
 
 def _asks(asked: Asked) -> Iterator[str]:
@@ -120,7 +122,7 @@ def _as_prose(cell: SourceCell, solved: Solved) -> list[Cell]:
             texts.append(data["text/latex"])
         else:
             texts.append(f"```\n{data.get('text/plain', output.get('text', ''))}\n```")
-    return [prose("\n\n".join(texts), cell.id, [], attachments)] if texts else []
+    return [prose_cell("\n\n".join(texts), cell.id, [], attachments)] if texts else []
 
 
 def _alt(text: str) -> str:

@@ -35,7 +35,7 @@ class _Refused(Exception):
     """A value that cannot leave."""
 
 
-def run(cells: list[str]) -> tuple[dict[str, Any], dict[str, Callable[..., Any]]]:
+def run_cells(cells: list[str]) -> tuple[dict[str, Any], dict[str, Callable[..., Any]]]:
     """Run the code cells as a kernel would. Gives what is to be said first, and the functions among the answers.
 
     A cell that fails does not stop the next; its error is told.
@@ -131,7 +131,7 @@ def serve(orders: Any, replies: Any) -> None:
     """Read the cells, run them, tell the answers; then call functions until nobody asks any more."""
     first = json.loads(orders.readline())
     try:
-        told, functions = run(first["cells"])
+        told, functions = run_cells(first["cells"])
     except BaseException:
         told, functions = {"answers": None, "why": traceback.format_exc(limit=1)[-300:], "failed": []}, {}
     _say(replies, {**told, "walls": first["walls"]})
