@@ -51,7 +51,9 @@ def verdicts(ran, numbers, found):
 
 @pytest.mark.long
 @pytest.mark.parametrize("path", SHEETS, ids=lambda p: p.stem)
-def test_right_rounded_each_wrong_method_with_its_consequences_and_garbage(path):
+def test_right_rounded_each_wrong_method_with_its_consequences_and_garbage(path, share):
+    if SHEETS.index(path) % share(4, 1):
+        pytest.skip("looked at by `make whole`")
     sheet, ran = path.stem, runner(path.stem, path.read_bytes())
     numbers = first_good(ran)
     right = verdicts(ran, numbers, class_of.answers(sheet, numbers, "right"))
