@@ -14,7 +14,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-
 PURE = ("behaviour", "study_process")
 """Caches of `loopbook.documents` whose arguments hold all that their results depend on: a loop, a process."""
 
