@@ -10,7 +10,7 @@ from loopbook.course.errors import SheetError
 from loopbook.course.notebooks import Content, as_bytes
 from loopbook.course.release.keys import key_notebook, key_row
 from loopbook.course.release.leaks import LeakScanner
-from loopbook.course.release.student import for_paper, for_screen
+from loopbook.course.release.student import for_screen, sheet_for_paper
 from loopbook.course.running import SheetRunner
 from loopbook.course.sheet import Sheet, read_sheet
 from notebook_reports.export.exporters.choose import ExportError, export
@@ -56,7 +56,7 @@ def release_one(job: ReleaseJob) -> ReleaseFiles:
     key = key_notebook(ran.sheet, solved, job.student)
     teacher = {f"{job.sheet}.ipynb": as_bytes(key)}
     if job.pdf:
-        student[f"{job.sheet}.pdf"] = as_report(for_paper(ran.sheet, solved, job.student), ran.sheet, "pdf")
+        student[f"{job.sheet}.pdf"] = as_report(sheet_for_paper(ran.sheet, solved, job.student), ran.sheet, "pdf")
         teacher[f"{job.sheet}.pdf"] = as_report(key, ran.sheet, "pdf", "Key: ")
     leaks = [str(leak) for leak in LeakScanner(ran.sheet, solved, job.secret).scan(student)]
     return ReleaseFiles(student, teacher, key_row(ran.sheet, solved), leaks)

@@ -46,7 +46,7 @@ def for_screen(sheet: Sheet, solved: Solved, student: str) -> Content:
     return notebook(cells, {COURSE: {"sheet": sheet.id, "student": student}})
 
 
-def for_paper(sheet: Sheet, solved: Solved, student: str) -> Content:
+def sheet_for_paper(sheet: Sheet, solved: Solved, student: str) -> Content:
     """The same for print."""
     cells: list[Cell] = []
     hints: list[Cell] = []
