@@ -14,7 +14,6 @@ from notebook_reports.ledger.document import Document
 from notebook_reports.ledger.verdicts import rounds_to
 from notebook_reports.ledger.words import shown as so  # noqa: F401 (chapters take it from here)
 
-
 REGULATOR = ("K_r", "c_1", "c_2", "c_3", "d_0", "d_1", "d_2")
 
 
