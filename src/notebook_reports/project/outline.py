@@ -9,7 +9,6 @@ picture = { notebook = "pid_report/01_terms", figure = 1 }   # of the front page
 folder = "pid_report"          # of notebooks/
 title = "A report on the PID controller"
 about = "How it works, how it is programmed, how it is tuned."
-order = ["introduction"]       # notebooks that come first; the others follow by their names
 
 [[part.find]]                  # what the part found, with the entry of the ledger that shows it
 says = "Its tracking gain divides by the wrong time constant."
@@ -97,10 +96,9 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
     wrong += [f"{where}: no notebook in notebooks/{folder}" for folder in folders if folder not in held]
     if wrong:
         raise UsageError("; ".join(sorted(wrong)))
-    orders = {part["folder"]: part.get("order", []) for part in tables(content, "part", where)}
     parts = [
-        Part(*told, _ordered([e for e in entries if e["folder"] == told[0]], orders[told[0]]), found)
-        for told, found in zip(named, finds, strict=True)
+        Part(*named_part, tuple(e for e in entries if e["folder"] == named_part[0]), found)
+        for named_part, found in zip(named, finds, strict=True)
     ]
     return Outline(title, subtitle, tuple(parts), code, _picture(content.get("picture"), entries, where))
 
@@ -127,13 +125,3 @@ def _picture(told: Any, entries: Sequence[Entry], where: str) -> tuple[str, int]
     if name not in [e["id"] for e in entries]:
         raise UsageError(f"{where}: the picture is of notebooks/{name}.ipynb, which is not there")
     return name, number
-
-
-def _ordered(entries: Sequence[Entry], order: Any) -> tuple[Entry, ...]:
-    """The entries that are named first, then the others. Raises UsageError for a name that is none of them."""
-    names = [str(entry["id"]).rpartition("/")[2] for entry in entries]
-    wrong = [name for name in order if name not in names] if isinstance(order, list) else ["which is no list"]
-    if wrong:
-        raise UsageError(f"notebooks/{FILE}: order names {', '.join(map(str, wrong))}; there are {', '.join(names)}")
-    place = {name: i for i, name in enumerate(order)}
-    return tuple(sorted(entries, key=lambda e: place.get(str(e["id"]).rpartition("/")[2], len(place))))

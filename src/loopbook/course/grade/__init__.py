@@ -1,1 +1,0 @@
-"""From what students handed in to verdicts, feedback and grades."""

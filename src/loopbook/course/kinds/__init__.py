@@ -1,1 +1,0 @@
-"""What an answer can be; a file each."""

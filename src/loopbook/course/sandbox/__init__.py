@@ -1,1 +1,0 @@
-"""A student's notebook run where it can do no harm: another user, no network, limits."""
