@@ -27,10 +27,15 @@ from loopbook.loop.continuous import Loop as Loop
 from loopbook.loop.diagrams import bode as bode
 from loopbook.loop.diagrams import margins as margins
 from loopbook.loop.diagrams import nyquist as nyquist
+from loopbook.loop.feedback import feedback as feedback
+from loopbook.loop.roots import dcgain as dcgain
+from loopbook.loop.roots import poles as poles
+from loopbook.loop.roots import zeros as zeros
 from loopbook.loop.sampled import SampledLoop as SampledLoop
 from loopbook.loop.step_info import step_info as step_info
-from loopbook.plots.curves import curves as curves
-from loopbook.plots.stairs import stairs as stairs
+from loopbook.loop.time_response import impulse_response as impulse_response
+from loopbook.loop.time_response import ramp_response as ramp_response
+from loopbook.loop.time_response import step_response as step_response
 from loopbook.pole_placement.place import place as place
 from loopbook.process.construct import tf as tf
 from loopbook.process.from_symbols import process_of as process_of
@@ -39,6 +44,7 @@ from loopbook.process.sampled import sample as c2d
 from loopbook.process.sampled import sample as sample
 from loopbook.process.transfer_function import DelayedSum as DelayedSum
 from loopbook.process.transfer_function import Process as Process
+from loopbook.process.transfer_function import TransferFunction as TransferFunction
 from loopbook.records.reading import read_record as read_csv
 from loopbook.records.record import Record as Record
 from loopbook.response.simulation import simulate as simulate
@@ -66,29 +72,35 @@ __all__ = [
     "SampledLoop",
     "SampledProcess",
     "StepData",
+    "TransferFunction",
     "Tuning",
     "TwoLagData",
     "bode",
     "c2d",
     "compare",
-    "curves",
+    "dcgain",
     "design",
     "documents",
     "experiments",
+    "feedback",
     "from_control",
     "identify",
+    "impulse_response",
     "margins",
     "nyquist",
     "place",
     "plots",
-    "process_of",
+    "poles",
+    "ramp_response",
     "read_csv",
     "sample",
     "simulate",
     "stairs",
     "step_info",
+    "step_response",
     "tf",
     "to_control",
     "tune",
     "tuning",
+    "zeros",
 ]

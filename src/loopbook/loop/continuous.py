@@ -19,14 +19,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loopbook.controllers.regulator import Regulator
+from loopbook.loop.closed import LoopRows, closed
 from loopbook.loop.margins import Margins, margins
 from loopbook.loop.stability import BorderError, decay_rate, is_stable, unstable_roots
 from loopbook.loop.transfer import LoopError, LoopTransfer
+from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number, real
 from loopbook.numerics.signals import HorizonError, Signal
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
-from loopbook.process.transfer_function import DelayedSum, Process
+from loopbook.process.transfer_function import DelayedSum, Process, TransferFunction
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
 from loopbook.response.step_metrics import exact_metrics
 
@@ -65,6 +67,23 @@ class Loop:
         c = self.polynomials
         process = _without_common_integrators(self.process.num, self.process.den)
         return *process, *_without_common_integrators(c.T, c.S, c.R)
+
+    def closed(self, source: str = "reference", output: str = "y") -> Process | DelayedSum | TransferFunction:
+        """The closed loop's transfer function from "reference", "load", "noise" or "disturbance" to "y" or "u".
+
+        A `Process` without dead time, else with the dead time inside, exact: see `loopbook.loop.closed`.
+        """
+        return closed(self._loop_rows, source, output, self.path)
+
+    @cached_property
+    def characteristic(self) -> ExponentialPolynomial:
+        """R A + S B exp(-L s), whose zeros are the loop's poles: `loopbook.loop.roots.poles` finds them."""
+        return self._loop_rows.characteristic
+
+    @property
+    def _loop_rows(self) -> LoopRows:
+        B, A, T, S, R = self._rows
+        return LoopRows(B, A, T, S, R, self.process.delay)
 
     @cached_property
     def transfer(self) -> LoopTransfer:

@@ -1,0 +1,83 @@
+"""The coefficients of a transfer function, taken from whatever holds a row of numbers."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from derivations.errors import LoopbookError
+from loopbook.numerics.multiple_roots import put_together
+from loopbook.numerics.real_numbers import plain_number
+from loopbook.numerics.units import characteristic_time, in_units
+
+
+class ProcessError(LoopbookError):
+    """A transfer function that cannot be a process; the message says which number and why."""
+
+
+def checked_coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
+    """Descending real coefficients without leading zeros; ProcessError for anything else.
+
+    >>> checked_coefficients([0, 2, 1], "num")
+    (2.0, 1.0)
+    """
+    if not (type(values) is tuple and values and all(type(c) is float for c in values)):
+        values = _row(values, name)
+    if not all(map(math.isfinite, values)):
+        raise ProcessError(f"{name} = {values!r}: the coefficients must be finite")
+    row = list(values)
+    while len(row) > 1 and not row[0]:
+        del row[0]
+    return tuple(row) if row != [0.0] else (0.0,)
+
+
+def _row(values: Any, name: str) -> list[float]:
+    """A row of floats from whatever holds one."""
+    array = np.atleast_1d(np.asarray(values, dtype=object))
+    row = list(array)
+    if not row or array.ndim > 1 or isinstance(row[0], list | tuple):
+        raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
+    try:
+        return [float(plain_number(c)) for c in row]
+    except (TypeError, OverflowError):
+        raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers") from None
+
+
+def roots_of(p: Sequence[float]) -> np.ndarray:
+    """The roots of a row, complex, found in its own unit of time; those that rounding split are put together.
+
+    >>> roots_of((4.0, 0.0, 1.0)).round(9).tolist()
+    [0.5j, -0.5j]
+    """
+    time = characteristic_time((1.0,), p, 0.0)
+    inside = in_units(p, time)
+    return put_together(inside, np.roots(inside)) / time
+
+
+def over_one_denominator(first: Sequence[float], second: Sequence[float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(a, b, d) with first * a = second * b = d, of the least degree that can be told without rounding.
+
+    Equal denominators, one that divides the other, and factors s that both have, stand once.
+
+    >>> [row.tolist() for row in over_one_denominator([1.0, 1.0, 0.0], [2.0, 0.0])]
+    [[1.0], [0.5, 0.5], [1.0, 1.0, 0.0]]
+    """
+    p, q = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    one = np.ones(1)
+    if len(p) >= len(q) and (factor := _quotient(p, q)) is not None:
+        return one, factor, p
+    if (factor := _quotient(q, p)) is not None:
+        return factor, one, q
+    shared = min(len(p) - 1 - int(np.flatnonzero(p)[-1]), len(q) - 1 - int(np.flatnonzero(q)[-1]))
+    short_p, short_q = p[: len(p) - shared], q[: len(q) - shared]
+    return short_q, short_p, np.convolve(p, short_q)
+
+
+def _quotient(p: np.ndarray, q: np.ndarray) -> np.ndarray | None:
+    """p/q where q divides p within the rounding of its coefficients, else None."""
+    quotient, _ = np.polydiv(p, q)
+    quotient = np.atleast_1d(quotient)
+    back = np.convolve(quotient, q)
+    width = np.convolve(np.abs(quotient), np.abs(q))
+    return quotient if len(back) == len(p) and (np.abs(back - p) <= 4 * np.finfo(float).eps * width).all() else None
