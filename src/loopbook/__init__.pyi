@@ -24,9 +24,11 @@ from loopbook.experiments.data import TwoLagData as TwoLagData
 from loopbook.identification.arrays import identify as identify
 from loopbook.loop.compare import compare as compare
 from loopbook.loop.continuous import Loop as Loop
+from loopbook.loop.crossovers import crossovers as crossovers
 from loopbook.loop.diagrams import bode as bode
 from loopbook.loop.diagrams import margins as margins
 from loopbook.loop.diagrams import nyquist as nyquist
+from loopbook.loop.discrete import DiscreteLoop as DiscreteLoop
 from loopbook.loop.feedback import feedback as feedback
 from loopbook.loop.roots import dcgain as dcgain
 from loopbook.loop.roots import poles as poles
@@ -38,10 +40,14 @@ from loopbook.loop.time_response import ramp_response as ramp_response
 from loopbook.loop.time_response import step_response as step_response
 from loopbook.pole_placement.place import place as place
 from loopbook.process.construct import tf as tf
-from loopbook.process.from_symbols import process_of as process_of
+from loopbook.process.discrete import DiscreteProcess as DiscreteProcess
+from loopbook.process.discretise import c2d as c2d
+from loopbook.process.pade import pade as pade
+from loopbook.process.reduction import reduced as reduced
 from loopbook.process.sampled import SampledProcess as SampledProcess
-from loopbook.process.sampled import sample as c2d
 from loopbook.process.sampled import sample as sample
+from loopbook.process.state_space_in import ss as ss
+from loopbook.process.thiran import thiran as thiran
 from loopbook.process.transfer_function import DelayedSum as DelayedSum
 from loopbook.process.transfer_function import Process as Process
 from loopbook.process.transfer_function import TransferFunction as TransferFunction
@@ -54,6 +60,8 @@ from loopbook.tuning.result import Tuning as Tuning
 TABLE: dict[str, str]
 __all__ = [
     "DelayedSum",
+    "DiscreteLoop",
+    "DiscreteProcess",
     "FrequencyData",
     "IntegratingPulseData",
     "IntegratingStepData",
@@ -78,6 +86,7 @@ __all__ = [
     "bode",
     "c2d",
     "compare",
+    "crossovers",
     "dcgain",
     "design",
     "documents",
@@ -88,17 +97,20 @@ __all__ = [
     "impulse_response",
     "margins",
     "nyquist",
+    "pade",
     "place",
     "plots",
     "poles",
     "ramp_response",
     "read_csv",
+    "reduced",
     "sample",
     "simulate",
-    "stairs",
+    "ss",
     "step_info",
     "step_response",
     "tf",
+    "thiran",
     "to_control",
     "tune",
     "tuning",

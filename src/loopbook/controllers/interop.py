@@ -5,11 +5,11 @@ A sampled process is exact there, dead time included: a delay of any length is a
 
 from typing import Any
 
-import numpy as np
-
 from loopbook.controllers.regulator import Regulator
 from loopbook.extras import needed
+from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.sampled import SampledProcess
+from loopbook.process.state_space_in import ss
 from loopbook.process.transfer_function import Process, ProcessError
 
 FORMS = ("tf", "ss")
@@ -41,7 +41,7 @@ def to_control(system: Any, form: str = "tf", pade: int | None = None) -> Any:
     return control.tf2ss(found) if form == "ss" else found
 
 
-def from_control(system: Any, delay: float = 0.0) -> Process:
+def from_control(system: Any, delay: float = 0.0) -> Process | DiscreteProcess:
     """From a continuous `control.TransferFunction` or `control.StateSpace` with one input and one output.
 
     delay [s]: the dead time, which the system itself cannot hold.
@@ -56,20 +56,9 @@ def from_control(system: Any, delay: float = 0.0) -> Process:
             raise ProcessError("from_control takes a system with one input and one output")
         if system.dt not in (0, None):
             raise ProcessError(f"from_control takes a continuous system, got one with dt = {system.dt}")
-        A, B, C, D = (np.asarray(getattr(system, name), dtype=float) for name in "ABCD")
-        return _of_state_space(A, B, C, D, delay)
+        A, B, C, D = (getattr(system, name) for name in "ABCD")
+        return ss(A, B, C, D, delay)
     return Process.from_control(system, delay)
-
-
-def _of_state_space(A: np.ndarray, B: np.ndarray, C: np.ndarray, D: np.ndarray, delay: float) -> Process:
-    """det(s I - A + B C) - det(s I - A) + D det(s I - A) over det(s I - A)."""
-    den = np.atleast_1d(np.real(np.poly(A))) if A.size else np.ones(1)
-    if not A.size:
-        return Process((float(D[0, 0]),), (1.0,), delay)
-    num = np.real(np.poly(A - B @ C)) + (float(D[0, 0]) - 1) * den
-    scale = np.abs(np.poly(A - B @ C)) + np.abs(den)
-    num = np.where(np.abs(num) <= 1e-13 * scale, 0.0, num)  # what rounding leaves of a coefficient that cancels
-    return Process(tuple(num), tuple(den), delay)
 
 
 def _aligned(num: Any, den: Any) -> tuple[list[float], list[float]]:

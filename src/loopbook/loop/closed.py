@@ -1,12 +1,14 @@
 """The transfer functions of a closed loop from each input to each signal, dead time exact.
 
-y = P (u + d) + W w,   u = T/R r - S/R (y + n),   P = B/A exp(-L s),    X = R A + S B exp(-L s)
+    y = P (u + d) + W w,   u = T/R r - S/R (y + n),   P = B/A exp(-L s),    X = R A + S B exp(-L s)
 
-from     to y                to u
-r        T B exp(-L s)/X     T A/X
-d        R B exp(-L s)/X     -S B exp(-L s)/X
-n        -S B exp(-L s)/X    -S A/X
-w        R A W/X             -S A W/X
+    from     to y                to u
+    r        T B exp(-L s)/X     T A/X
+    d        R B exp(-L s)/X     -S B exp(-L s)/X
+    n        -S B exp(-L s)/X    -S A/X
+    w        R A W/X             -S A W/X
+
+r reference, d load at the process input, n noise on the measurement, w what enters elsewhere.
 """
 
 from collections.abc import Sequence

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loopbook.controllers.regulator import Regulator
+from loopbook.loop import circle_margins
 from loopbook.loop import margins as continuous_margins
 from loopbook.loop.continuous import Loop
+from loopbook.loop.discrete import DiscreteLoop
 from loopbook.loop.margins import Margins
 from loopbook.loop.sampled import SampledLoop, SampledMargins
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.plots.frequency import Curve, bode_figure, nyquist_curves
 from loopbook.plots.shown import shown_once
+from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.sampled import SampledProcess
 from loopbook.process.transfer_function import Process
 
@@ -24,10 +27,11 @@ DECADES = 1.5  # beyond the outermost corner
 TURN = 0.1  # rad of dead-time phase between neighbouring points
 
 
-def margins(loop: Loop | SampledLoop) -> Margins | SampledMargins:
+def margins(loop: Any) -> Margins | SampledMargins:
     """Gain, phase and delay margins with Ms and Mt of a stable loop; prints and displays as a table.
 
-    Raises LoopError for an unstable loop, which has none.
+    loop: any loop; or a process, continuous or in z, as the loop transfer itself. Raises LoopError for an unstable
+    loop, which has none: `crossovers` shows where its gain passes 1 and its phase -180 degrees.
 
     >>> from loopbook.controllers.pid_forms import PidStandard
     >>> print(margins(Loop(Process.fopdt(2, 10, 3), PidStandard(0.5, 10))))
@@ -38,13 +42,20 @@ def margins(loop: Loop | SampledLoop) -> Margins | SampledMargins:
     Ms         1.307  0.333
     Mt         1      0
     """
-    return loop.margins()
+    if isinstance(loop, Process):
+        return continuous_margins.margins(LoopTransfer(loop.num, loop.den, loop.delay))
+    if isinstance(loop, DiscreteProcess):
+        loop = DiscreteLoop(loop)
+    if not hasattr(loop, "margins"):
+        raise LoopError(f"{type(loop).__name__} has no margins: give a loop, or a process as its loop transfer")
+    found: Margins | SampledMargins = loop.margins()
+    return found
 
 
 def bode(system: Any, w: Sequence[float] | None = None, title: str = "Bode diagram") -> "Figure":
     """Gain and phase with exact dead time, as a matplotlib figure; of a loop the loop transfer with its margins.
 
-    system: a `Process`, `Loop`, `SampledProcess` or `SampledLoop`, a PID form or a regulator, or several by name in a
+    system: a process or a loop, continuous, sampled or in z, a PID form or a regulator, or several by name in a
     mapping. w [rad/s]: the frequencies; by default all that have corners and crossovers in them.
 
     >>> bode(Process.fopdt(2, 10, 3)).axes[0].get_ylabel()
@@ -69,7 +80,7 @@ def _curves(system: Any, w: Sequence[float] | None) -> dict[str, Curve]:
 
 
 def _curve(system: Any, w: np.ndarray | None) -> Curve:
-    if isinstance(system, SampledLoop | SampledProcess):
+    if isinstance(system, SampledLoop | SampledProcess | DiscreteLoop | DiscreteProcess):
         return _of_sampled(system, w)
     if isinstance(system, Loop):
         transfer = system.transfer
@@ -105,15 +116,15 @@ def _frequencies(transfer: LoopTransfer) -> np.ndarray:
     return w
 
 
-def _of_sampled(system: SampledLoop | SampledProcess, w: np.ndarray | None) -> Curve:
+def _of_sampled(system: Any, w: np.ndarray | None) -> Curve:
     h = system.regulator.h if isinstance(system, SampledLoop) else system.h
     w = np.geomspace(1e-3, 1.0, 1200) * math.pi / h if w is None else w
-    if isinstance(system, SampledProcess):
+    if isinstance(system, SampledProcess | DiscreteProcess):
         value = system(np.exp(1j * w * h))
         return Curve(w, abs(value), np.degrees(np.unwrap(np.angle(value))))
-    value = system.at(w * h)
-    at_gain = [(float(x), float(np.degrees(np.angle(-system.at(np.array(x * h)))))) for x in system.gain_crossovers]
-    at_phase = [(float(x), float(1 / abs(system.at(np.array(x * h))))) for x in system.phase_crossovers if x > 0]
+    value = system.on_circle(w * h)
+    at_gain = [(c.w, c.phase_margin) for c in circle_margins.gain_crossovers(system.on_circle, h)]
+    at_phase = [(c.w, c.gain) for c in circle_margins.phase_crossovers(system.on_circle, h) if c.w > 0]
     Ms = system.margins().Ms if system.is_stable else None
     peak = (Ms.w, Ms.value) if Ms is not None else None
     return Curve(w, abs(value), np.degrees(np.unwrap(np.angle(value))), at_phase, at_gain, peak)

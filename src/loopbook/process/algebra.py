@@ -3,7 +3,8 @@
     P + Q    P - Q    P * Q    P / Q    2 * P    P / 2    1 / P    -P    P ** 2    P ** -1    feedback
 
 Dead times enter exactly: those of factors add up, a sum keeps those of its terms. Polynomials that stand above and
-below and are the same number for number cancel (so P / P is 1); nothing else is cancelled: see `reduced`.
+below and are the same number for number cancel, so that P / P is 1; nothing else is cancelled but on request
+(`loopbook.process.reduction`).
 """
 
 from abc import ABC, abstractmethod

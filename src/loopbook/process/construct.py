@@ -6,11 +6,14 @@ from typing import Any
 import numpy as np
 
 from loopbook.process.algebra import LAPLACE, ONE
+from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.transfer_function import Process, ProcessError, TransferFunction
 
 
-def tf(num: Any, den: Any = 1.0, delay: float = 0.0) -> Any:
+def tf(num: Any, den: Any = 1.0, delay: float = 0.0, *, h: float | None = None) -> Any:
     """num(s)/den(s) exp(-delay s), a `Process`; tf("s") is the variable s itself, to write formulas with.
+
+    With a sampling interval h [s]: num(z)/den(z), descending powers of z, a `DiscreteProcess`.
 
     num, den: a number, descending coefficients, or several rows of them that are multiplied out. delay [s] >= 0, exact.
     Raises ProcessError for what is no process: improper, not finite, a negative dead time.
@@ -25,6 +28,10 @@ def tf(num: Any, den: Any = 1.0, delay: float = 0.0) -> Any:
         if num != "s" or den != 1 or delay:
             raise ProcessError(f'tf({num!r}, ...): the only text is tf("s"), the variable s; else give coefficients')
         return TransferFunction(LAPLACE, ONE)
+    if h is not None:
+        if delay:
+            raise ProcessError("a dead time in the z domain is a power of z: write it into den")
+        return DiscreteProcess.in_z(_multiplied(num), _multiplied(den), h)
     return Process(_multiplied(num), _multiplied(den), delay)
 
 

@@ -1,0 +1,132 @@
+"""A loop in the z domain: a plant known at the samples only, under a sampled regulator R u = T r - S y.
+
+What a `loopbook.loop.sampled.SampledLoop` answers about a continuous process between the samples cannot be told here.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from loopbook.controllers.rst import Rst
+from loopbook.loop.circle_margins import gain_crossovers, phase_crossovers
+from loopbook.loop.margins import Margins
+from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
+from loopbook.loop.transfer import LoopError
+from loopbook.loop.unit_circle import CircleTransfer
+from loopbook.process.discrete import DiscreteProcess
+
+BORDER = 1e-9
+SOURCES, OUTPUTS = ("reference", "load", "noise"), ("y", "u")
+
+
+def _rst(regulator: Any, h: float) -> Rst:
+    if isinstance(regulator, Rst):
+        if regulator.h != h:
+            raise LoopError(f"the plant is sampled every {h:g} s, the regulator every {regulator.h:g} s")
+        return regulator
+    one = DiscreteProcess((1.0,), (1.0,), h).with_other(regulator)
+    if one is None:
+        raise LoopError(f"{type(regulator).__name__} is no regulator: give an Rst, a DiscreteProcess or a number")
+    return Rst(tuple(one.den), tuple(one.num), tuple(one.num), h)
+
+
+@dataclass(frozen=True)
+class DiscreteLoop:
+    """plant: a `DiscreteProcess` or a `SampledProcess`. regulator: an `Rst`, a `DiscreteProcess`, or a number.
+
+    >>> loop = DiscreteLoop(DiscreteProcess.in_z([0.04798, 0.0464], [1, -1.81, 0.9048], 0.1))
+    >>> round(loop.margins().gain, 4), round(loop.margins().phase, 4)
+    (2.0517, 13.5712)
+    """
+
+    plant: Any
+    regulator: Any = 1.0
+
+    @cached_property
+    def _plant(self) -> DiscreteProcess:
+        return DiscreteProcess.of(self.plant)
+
+    @cached_property
+    def polynomials(self) -> Rst:
+        """The regulator as polynomials R, S, T."""
+        return _rst(self.regulator, self._plant.h)
+
+    @property
+    def h(self) -> float:
+        """The sampling interval [s]."""
+        return self._plant.h
+
+    @cached_property
+    def transfer(self) -> DiscreteProcess:
+        """The loop transfer S B/(R A)."""
+        c = self.polynomials
+        num, den = np.convolve(c.S, self._plant.num), np.convolve(c.R, self._plant.den)
+        return DiscreteProcess(tuple(num), tuple(den), self.h)
+
+    @cached_property
+    def on_circle(self) -> CircleTransfer:
+        """The loop transfer at z = exp(j angle)."""
+        return circle_of(self.transfer)
+
+    @cached_property
+    def poles(self) -> np.ndarray:
+        """The zeros of R A + S B in z, those at the origin included."""
+        return self.closed("reference", "y").poles
+
+    @cached_property
+    def is_stable(self) -> bool:
+        """All poles inside the unit circle, also those that plant and regulator cancel."""
+        return bool((abs(self.poles) < 1 - BORDER).all())
+
+    def closed(self, source: str = "reference", output: str = "y") -> DiscreteProcess:
+        """From "reference", "load" (at the plant's input) or "noise" to "y" or "u"."""
+        if source not in SOURCES or output not in OUTPUTS:
+            raise LoopError(f"from {source!r} to {output!r}: from {', '.join(SOURCES)}, to {' or '.join(OUTPUTS)}")
+        c, B, A = self.polynomials, self._plant.num, self._plant.den
+        n, d = self.transfer.num, self.transfer.den
+        below = np.zeros(max(len(n), len(d)))
+        below[: len(n)] += n
+        below[: len(d)] += d
+        above = {
+            ("reference", "y"): np.convolve(c.T, B),
+            ("reference", "u"): np.convolve(c.T, A),
+            ("load", "y"): np.convolve(c.R, B),
+            ("load", "u"): -np.convolve(c.S, B),
+            ("noise", "y"): -np.convolve(c.S, B),
+            ("noise", "u"): -np.convolve(c.S, A),
+        }[source, output]
+        return DiscreteProcess(tuple(above), tuple(below), self.h)
+
+    def margins(self) -> Margins:
+        """All margins, each with its frequency [rad/s]; Ms and Mt over the whole circle, certified.
+
+        delay [s]: the least one with which exp(-jw delay) takes the loop transfer to -1; the plant itself, known at the
+        samples only, tells of whole samples. Raises LoopError for an unstable loop.
+        """
+        if not self.is_stable:
+            raise LoopError(f"the loop is unstable (a pole at |z| = {abs(self.poles).max():.6g}) and has no margins")
+        return circle_margins(self.on_circle, self.h)
+
+
+def circle_of(system: DiscreteProcess) -> CircleTransfer:
+    """A transfer function in z on the unit circle."""
+    zeros, poles = (np.roots(row).astype(complex) for row in (np.trim_zeros(system.num, "f"), system.den))
+    return CircleTransfer(np.asarray(system.num), np.asarray(system.den), zeros, poles)
+
+
+def circle_margins(circle: CircleTransfer, h: float) -> Margins:
+    """The margins of a stable loop whose transfer function on the circle is given."""
+    at_gain, at_phase = gain_crossovers(circle, h), phase_crossovers(circle, h)
+    Ms, Mt = sampled_peaks(circle)
+    return Margins(
+        gain=min((c.gain for c in at_phase if c.gain > 1), default=np.inf),
+        gain_low=max((c.gain for c in at_phase if c.gain < 1), default=0.0),
+        phase=min((c.phase_margin for c in at_gain), key=abs, default=np.inf),
+        delay=min((c.delay_margin for c in at_gain), default=np.inf),
+        Ms=Peak(Ms.value, Ms.w / h),
+        Mt=Peak(Mt.value, Mt.w / h),
+        gain_crossovers=at_gain,
+        phase_crossovers=at_phase,
+    )
