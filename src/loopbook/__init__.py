@@ -65,6 +65,10 @@ TABLE = {
     "tune": "loopbook.tuning.by_name:tune",
     "Tuning": "loopbook.tuning.result:Tuning",
     "place": "loopbook.pole_placement.place:place",
+    "diophantine": "loopbook.pole_placement.polynomial_equation:diophantine",
+    "state_feedback": "loopbook.pole_placement.state_feedback:state_feedback",
+    "observer": "loopbook.pole_placement.state_feedback:observer",
+    "state_regulator": "loopbook.pole_placement.state_feedback:state_regulator",
     # what is known of the process
     "StepData": "loopbook.experiments.data:StepData",
     "IntegratingStepData": "loopbook.experiments.data:IntegratingStepData",

@@ -39,6 +39,10 @@ from loopbook.loop.time_response import impulse_response as impulse_response
 from loopbook.loop.time_response import ramp_response as ramp_response
 from loopbook.loop.time_response import step_response as step_response
 from loopbook.pole_placement.place import place as place
+from loopbook.pole_placement.polynomial_equation import diophantine as diophantine
+from loopbook.pole_placement.state_feedback import observer as observer
+from loopbook.pole_placement.state_feedback import state_feedback as state_feedback
+from loopbook.pole_placement.state_feedback import state_regulator as state_regulator
 from loopbook.process.construct import tf as tf
 from loopbook.process.discrete import DiscreteProcess as DiscreteProcess
 from loopbook.process.discretise import c2d as c2d
@@ -89,6 +93,7 @@ __all__ = [
     "crossovers",
     "dcgain",
     "design",
+    "diophantine",
     "documents",
     "experiments",
     "feedback",
@@ -97,6 +102,7 @@ __all__ = [
     "impulse_response",
     "margins",
     "nyquist",
+    "observer",
     "pade",
     "place",
     "plots",
@@ -107,6 +113,8 @@ __all__ = [
     "sample",
     "simulate",
     "ss",
+    "state_feedback",
+    "state_regulator",
     "step_info",
     "step_response",
     "tf",

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics import polynomial_text
-from loopbook.numerics.real_numbers import plain, positive
+from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
 from loopbook.process import formulas
 from loopbook.process.approximation import Approximates
-from loopbook.process.coefficients import ProcessError, coefficients
+from loopbook.process.coefficients import ProcessError, checked_coefficients
 from loopbook.process.transfer_function import Process
 
 SAMPLES = 60
@@ -28,7 +28,7 @@ SAMPLES = 60
 
 def _row(values: Any, name: str) -> np.ndarray:
     """Ascending coefficients of z^-1 without zeros at the end."""
-    row = np.asarray(coefficients(tuple(reversed(list(np.atleast_1d(np.asarray(values, dtype=object))))), name))[::-1]
+    row = np.asarray(checked_coefficients(tuple(reversed(list(np.atleast_1d(np.asarray(values, dtype=object))))), name))[::-1]
     return row
 
 
@@ -65,7 +65,7 @@ class DiscreteProcess(Approximates):
         >>> DiscreteProcess.in_z([0.5], [1, -0.5], 0.1)
         DiscreteProcess(num=(0.0, 0.5), den=(1.0, -0.5), h=0.1)
         """
-        above, below = coefficients(num, "num"), coefficients(den, "den")
+        above, below = checked_coefficients(num, "num"), checked_coefficients(den, "den")
         if len(above) > len(below):
             raise ProcessError(f"num has degree {len(above) - 1}, den {len(below) - 1}: y would precede u")
         return cls((0.0,) * (len(below) - len(above)) + above, below, h)
@@ -145,7 +145,7 @@ class DiscreteProcess(Approximates):
                 raise ProcessError(f"h = {self.h:g} s and {other.h:g} s: two sampling intervals have no common z")
             return other
         try:
-            return DiscreteProcess((float(plain(other)),), (1.0,), self.h)
+            return DiscreteProcess((float(plain_number(other)),), (1.0,), self.h)
         except TypeError:
             return None
 

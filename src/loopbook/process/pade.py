@@ -11,7 +11,7 @@ from fractions import Fraction
 from math import comb, perm
 from typing import Any
 
-from loopbook.numerics.real_numbers import plain, positive
+from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.process.approximation import Approximates
 from loopbook.process.coefficients import ProcessError
 from loopbook.process.transfer_function import Process
@@ -63,6 +63,6 @@ def pade(process: Any, order: int | tuple[int, int]) -> ApproximateProcess:
 
 def _dead_time(value: Any) -> Process:
     try:
-        return Process((1.0,), (1.0,), positive(plain(value), "delay", ProcessError, " s"))
+        return Process((1.0,), (1.0,), positive(plain_number(value), "delay", ProcessError, " s"))
     except TypeError:
         raise ProcessError(f"{type(value).__name__} has no dead time: give a Process or seconds") from None

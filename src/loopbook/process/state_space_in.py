@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.numerics.real_numbers import plain
+from loopbook.numerics.real_numbers import plain_number
 from loopbook.process.coefficients import ProcessError
 from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.transfer_function import Process
@@ -56,7 +56,7 @@ def _matrix(values: Any, name: str) -> np.ndarray:
     found = np.empty(array.shape, dtype=object)
     try:
         for index, value in np.ndenumerate(array):
-            found[index] = plain(value)
+            found[index] = plain_number(value)
             if not math.isfinite(found[index]):
                 raise TypeError
     except TypeError:
