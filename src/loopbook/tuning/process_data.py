@@ -245,6 +245,7 @@ def _data_of(item: Any) -> Any:
 
 
 def _gain(process: Process) -> float:
-    """The sign of the response to a step in the long run."""
+    """The sign of the response to a step in the long run; an unstable pole, which grows the other way, turns it."""
     den = [c for c in process.den if c]
-    return process.num[-1] / den[-1]
+    unstable = int((process.poles.real > 0).sum()) if process.order else 0
+    return process.num[-1] / den[-1] * (-1) ** unstable
