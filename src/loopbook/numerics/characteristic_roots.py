@@ -17,6 +17,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.numerics.argument_principle import BoundaryError, Box, zeros_around, zeros_inside
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial, characteristic_time_of
+from loopbook.numerics.multiple_roots import put_together
 from loopbook.numerics.spectral_roots import DelaySpectrum
 
 WIDER = 1e-8
@@ -80,16 +81,10 @@ def zeros_in(f: ExponentialPolynomial, right_of: float | None = None, box: Box |
 def _rational(f: ExponentialPolynomial, right_of: float | None, box: Box | None, time: float) -> tuple[Zeros, Box]:
     """Of a polynomial: what of its roots lies in the region; those that rounding split are one."""
     region = box or Box(-math.inf if right_of is None else right_of, math.inf, -math.inf, math.inf)
-    found = _merged(f, np.roots(f.terms[0][1]).astype(complex), 0.0)
-    multiplicity = np.array([_order(f, s, found) for s in found], dtype=int)
-    kept = region.holds(found / time)
-    return _sorted(found[kept] / time, multiplicity[kept]), region
-
-
-def _order(f: ExponentialPolynomial, s: complex, found: np.ndarray) -> int:
-    """How many of the derivatives of f vanish at a root that may stand for several."""
-    room = f.degree - len(found) + 1
-    return next((m for m in range(room, 1, -1) if _vanishes(f, s, m)), 1)
+    row = f.terms[0][1]
+    values, multiplicity = np.unique(put_together(row, np.roots(row)), return_counts=True)
+    kept = region.holds(values / time)
+    return _sorted(values[kept].astype(complex) / time, multiplicity[kept]), region
 
 
 def _advanced(f: ExponentialPolynomial, box: Box | None) -> tuple[Zeros, Box]:

@@ -182,3 +182,10 @@ def test_symbols_without_assumptions_are_real_numbers():
     exact = zero_order_hold(10 / (S**2 + 3 * S + 10), R(1, 10))
     for name, value in second.coefficients.items():
         assert abs(sp.N(value.subs(at) - exact.coefficients[name])) < 1e-14
+
+
+def test_a_fractional_delay_of_complex_poles_as_matlab_prints_it():
+    """MATLAB, c2d: 10 e^(-0.25 s)/(s^2 + 3 s + 10), Ts = 0.1: z^-3 (.01187 z^2 + .06408 z + .009721)/(...)."""
+    found = zero_order_hold(10 / (S**2 + 3 * S + 10), sp.Rational(1, 10), 2, sp.Rational(1, 2))
+    values = {name: float(f"{float(value):.4g}") for name, value in found.coefficients.items()}
+    assert values == {"a_1": -1.655, "a_2": 0.7408, "b_3": 0.01187, "b_4": 0.06408, "b_5": 0.009721}

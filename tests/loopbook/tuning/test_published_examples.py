@@ -263,3 +263,11 @@ def test_negative_gains_are_refused(process, rule, options, says):
 
     with pytest.raises(RuleDoesNotApply, match=says):
         tune(process, rule, **options)
+
+
+def test_gains_of_either_sign_can_be_seen():
+    """The published P and I of 1/(s + 1)^4 at 0.8 rad/s with 60 degrees, and of 1/(s + 1) with w0 = 0.2."""
+    from loopbook.tuning import by_damping, by_margin
+
+    assert by_margin.gains(FOURTH, 0.8, 60) == pytest.approx((2.2128613, -1.2230305), abs=5e-8)
+    assert by_damping.gains(Process([1], [1, 1]), 0.2, 0.7) == pytest.approx((-0.72, 0.04, 0))
