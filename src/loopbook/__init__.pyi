@@ -9,6 +9,7 @@ from loopbook import tuning as tuning
 from loopbook.controllers.interop import from_control as from_control
 from loopbook.controllers.interop import to_control as to_control
 from loopbook.controllers.on_off import OnOff as OnOff
+from loopbook.controllers.parallel_settings import ParallelSettings as ParallelSettings
 from loopbook.controllers.pid import Pid as Pid
 from loopbook.controllers.pid_forms import PidParallel as PidParallel
 from loopbook.controllers.pid_forms import PidSeries as PidSeries
@@ -22,6 +23,7 @@ from loopbook.experiments.data import IntegratingStepData as IntegratingStepData
 from loopbook.experiments.data import StepData as StepData
 from loopbook.experiments.data import TwoLagData as TwoLagData
 from loopbook.identification.arrays import identify as identify
+from loopbook.loop.cascade import CascadeLoop as CascadeLoop
 from loopbook.loop.compare import compare as compare
 from loopbook.loop.continuous import Loop as Loop
 from loopbook.loop.crossovers import crossovers as crossovers
@@ -30,10 +32,14 @@ from loopbook.loop.diagrams import margins as margins
 from loopbook.loop.diagrams import nyquist as nyquist
 from loopbook.loop.discrete import DiscreteLoop as DiscreteLoop
 from loopbook.loop.feedback import feedback as feedback
+from loopbook.loop.feedforward import FeedforwardLoop as FeedforwardLoop
+from loopbook.loop.feedforward import feedforward as feedforward
+from loopbook.loop.general import GeneralLoop as GeneralLoop
 from loopbook.loop.roots import dcgain as dcgain
 from loopbook.loop.roots import poles as poles
 from loopbook.loop.roots import zeros as zeros
 from loopbook.loop.sampled import SampledLoop as SampledLoop
+from loopbook.loop.smith import SmithLoop as SmithLoop
 from loopbook.loop.step_info import step_info as step_info
 from loopbook.loop.time_response import impulse_response as impulse_response
 from loopbook.loop.time_response import ramp_response as ramp_response
@@ -63,15 +69,19 @@ from loopbook.tuning.result import Tuning as Tuning
 
 TABLE: dict[str, str]
 __all__ = [
+    "CascadeLoop",
     "DelayedSum",
     "DiscreteLoop",
     "DiscreteProcess",
+    "FeedforwardLoop",
     "FrequencyData",
+    "GeneralLoop",
     "IntegratingPulseData",
     "IntegratingStepData",
     "Loop",
     "LoopbookError",
     "OnOff",
+    "ParallelSettings",
     "Pid",
     "PidParallel",
     "PidSeries",
@@ -83,6 +93,7 @@ __all__ = [
     "Rst",
     "SampledLoop",
     "SampledProcess",
+    "SmithLoop",
     "StepData",
     "TransferFunction",
     "Tuning",
@@ -97,6 +108,7 @@ __all__ = [
     "documents",
     "experiments",
     "feedback",
+    "feedforward",
     "from_control",
     "identify",
     "impulse_response",

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from derivations.errors import LoopbookError
+from loopbook.controllers import generated
 from loopbook.controllers.pid_forms import PidParallel, PidSeries, PidStandard
 from loopbook.numerics.real_numbers import Number, plain_number
 
@@ -123,6 +124,11 @@ class PidSettings:
                 object.__setattr__(self, "Tt", max(tracking_time(self.Ti, self.Td), self.h))
         elif 2 * self.Tt <= self.h:
             raise SettingError("Tt", self.Tt, f"Tt > h/2 = {self.h / 2!r} s", "below it tracking diverges")
+
+    def gains(self) -> tuple[Any, ...]:
+        """The coefficients of the program."""
+        found: tuple[Any, ...] = generated.gains()(self.K, self.Ti, self.Td, self.Tf, self.b, self.c, self.h, self.Tt)
+        return found
 
     def changed(self, **settings: Any) -> "PidSettings":
         """The same settings with some replaced; Tt stays as it is. SettingError for an unknown name."""

@@ -120,7 +120,7 @@ def _of_run(run: Simulation) -> tuple[Any, ...]:
 
 def _drawn(loop: Loop | SampledLoop, horizon: float) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """((t, y), (t, u)) after a unit step of the reference at 0 and one of the load at half the horizon."""
-    if isinstance(loop, Loop):
+    if not isinstance(loop, SampledLoop):
         return loop.reference_and_load(horizon)
     steps = int(np.ceil(horizon / loop.regulator.h))
     one, two = loop.step("reference", steps), loop.step("load", steps)

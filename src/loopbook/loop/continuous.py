@@ -73,15 +73,16 @@ class Loop:
 
         A `Process` without dead time, else with the dead time inside, exact: see `loopbook.loop.closed`.
         """
-        return closed(self._loop_rows, source, output, self.path)
+        return closed(self.loop_rows, source, output, self.path)
 
     @cached_property
     def characteristic(self) -> ExponentialPolynomial:
         """R A + S B exp(-L s), whose zeros are the loop's poles: `loopbook.loop.roots.poles` finds them."""
-        return self._loop_rows.characteristic
+        return self.loop_rows.characteristic
 
     @property
-    def _loop_rows(self) -> LoopRows:
+    def loop_rows(self) -> LoopRows:
+        """B, A, T, S, R and the dead time, without the integrators that process or regulator cancel in themselves."""
         B, A, T, S, R = self._rows
         return LoopRows(B, A, T, S, R, self.process.delay)
 
@@ -236,7 +237,7 @@ class StepResponse:
     Times beyond the horizon raise HorizonError.
     """
 
-    loop: Loop
+    loop: Any
     source: str
     horizon: float
     y: Signal

@@ -9,16 +9,20 @@ import numpy as np
 from loopbook.controllers.regulator import Regulator
 from loopbook.loop import circle_margins
 from loopbook.loop import margins as continuous_margins
+from loopbook.loop.cascade import CascadeLoop
 from loopbook.loop.continuous import Loop
 from loopbook.loop.discrete import DiscreteLoop
+from loopbook.loop.feedforward import FeedforwardLoop
+from loopbook.loop.general import GeneralLoop
 from loopbook.loop.margins import Margins
 from loopbook.loop.sampled import SampledLoop, SampledMargins
 from loopbook.loop.transfer import LoopError, LoopTransfer
+from loopbook.numerics.exponential_polynomial import characteristic_time_of
 from loopbook.plots.frequency import Curve, bode_figure, nyquist_curves
 from loopbook.plots.shown import shown_once
 from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.sampled import SampledProcess
-from loopbook.process.transfer_function import Process
+from loopbook.process.transfer_function import DelayedSum, Process, TransferFunction
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -82,6 +86,8 @@ def _curves(system: Any, w: Sequence[float] | None) -> dict[str, Curve]:
 def _curve(system: Any, w: np.ndarray | None) -> Curve:
     if isinstance(system, SampledLoop | SampledProcess | DiscreteLoop | DiscreteProcess):
         return _of_sampled(system, w)
+    if isinstance(system, GeneralLoop | CascadeLoop | FeedforwardLoop | DelayedSum | TransferFunction):
+        return _of_sums(system, w)
     if isinstance(system, Loop):
         transfer = system.transfer
     elif isinstance(system, Process):
@@ -101,6 +107,31 @@ def _curve(system: Any, w: np.ndarray | None) -> Curve:
     except LoopError:
         peak = None
     return Curve(w, abs(value), np.degrees(np.unwrap(np.angle(value))), at_phase, at_gain, peak)
+
+
+def _of_sums(system: Any, w: np.ndarray | None) -> Curve:
+    """Of what has dead times inside: its corners are not all roots of a polynomial."""
+    if isinstance(system, FeedforwardLoop):
+        return _curve(system.loop, w)
+    is_loop = not isinstance(system, DelayedSum | TransferFunction)
+    transfer = system.transfer if is_loop else system
+    num, den = transfer.fraction
+    if w is None:
+        time, longest = characteristic_time_of(num, den), max([*num.delays, *den.delays])
+        high = max(30 / time, 8 / longest if longest else 0.0)
+        w = np.geomspace(1e-3 / time, high, 900)
+        w = np.union1d(w, np.arange(TURN, high * longest, TURN) / longest) if longest else w
+    value = transfer(1j * w)
+    phase = np.degrees(np.unwrap(np.angle(value)))
+    if not is_loop:
+        return Curve(w, abs(value), phase)
+    try:
+        m = system.margins()
+    except LoopError:
+        return Curve(w, abs(value), phase)
+    at_gain = [(c.w, c.phase_margin) for c in m.gain_crossovers]
+    at_phase = [(c.w, c.gain) for c in m.phase_crossovers]
+    return Curve(w, abs(value), phase, at_phase, at_gain, (m.Ms.w, m.Ms.value))
 
 
 def _frequencies(transfer: LoopTransfer) -> np.ndarray:

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics.argument_principle import Box
-from loopbook.numerics.characteristic_roots import RootsError, zeros_in
+from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
+from loopbook.numerics.right_half_plane import RootsError
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 
 SHOWN = 24

@@ -29,7 +29,7 @@ class Peak(NamedTuple):
     w: float
 
 
-class _Curve(ABC):
+class NyquistCurve(ABC):
     """W over w. A subclass tells W, d log W/dw, and what bounds them on intervals."""
 
     @abstractmethod
@@ -68,7 +68,7 @@ class _Curve(ABC):
         return values, np.fmax(np.fmax(np.where(np.isfinite(local), local, -1.0), least - 1), 1 - most)
 
 
-class _Axis(_Curve):
+class _Axis(NyquistCurve):
     """W = k prod(s - z)/prod(s - p) exp(-L s) on the imaginary axis: G itself or 1/G (then with a negative L)."""
 
     def __init__(self, loop: LoopTransfer, inverse: bool):
@@ -141,7 +141,7 @@ def _limit(curve: _Axis) -> float:
     return abs(1 + curve.num[0] / curve.den[0])
 
 
-class Circle(_Curve):
+class Circle(NyquistCurve):
     """W = G or 1/G on the unit circle, for sampled loops; w is the angle."""
 
     def __init__(self, transfer: CircleTransfer):
@@ -169,7 +169,7 @@ class Circle(_Curve):
             return least, most, (size / near).sum(axis=0) + abs(t.d), (size / near**2).sum(axis=0)
 
 
-def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float]:
+def _polished(curve: NyquistCurve, a: float, b: float, w: float) -> tuple[float, float]:
     """(distance, w) at the minimum near w in [a, b]; beside w itself where [a, b] does not bracket one."""
     from scipy.optimize import brentq
 
@@ -180,7 +180,7 @@ def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float
     return float(curve.distance(np.array(w))), float(w)
 
 
-def closest(curve: _Curve) -> tuple[float, float]:
+def closest(curve: NyquistCurve) -> tuple[float, float]:
     """min |1 + W| over the whole curve and where, to a certified relative 1e-6 and in fact to rounding."""
     grid, best, at = curve.grid()
     a, b = grid[:-1], grid[1:]

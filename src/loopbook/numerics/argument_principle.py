@@ -63,6 +63,24 @@ def zeros_inside(f: ExponentialPolynomial, box: Box) -> int:
     return round(_turned(f, path, np.append(path[1:], low)) / (2 * np.pi))
 
 
+def zeros_right(f: ExponentialPolynomial, reach: float) -> int:
+    """The number of zeros of f with a positive real part; none of them farther from the origin than `reach`.
+
+    f: its first term, without delay, has the highest power, c s^n. Only the imaginary axis is followed: on the half
+    circle from -j reach to j reach the argument of f is that of c s^n within a right angle at both ends. Raises
+    BoundaryError for a zero on the axis.
+
+    >>> f = ExponentialPolynomial.of([1.0, 0.0]) + ExponentialPolynomial.of([1.6], 1.0)
+    >>> zeros_right(f, 2.0)
+    2
+    """
+    edges = np.concatenate([[0.0], np.geomspace(1e-3 * reach, reach, 4 * PIECES)]) * 1j
+    along = _turned(f, edges[:-1], edges[1:])
+    n = len(f.terms[0][1]) - 1
+    end = complex(f(edges[-1])) / (f.terms[0][1][0] * complex(edges[-1]) ** n)
+    return round(n / 2 + (np.angle(end) - along) / np.pi)
+
+
 def zeros_around(f: ExponentialPolynomial, centre: complex, radius: float) -> int:
     """The number of zeros of f in the square of half the side `radius` around a point."""
     return zeros_inside(f, Box(centre.real - radius, centre.real + radius, centre.imag - radius, centre.imag + radius))

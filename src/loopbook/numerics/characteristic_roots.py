@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from derivations.errors import LoopbookError
 from loopbook.numerics.argument_principle import BoundaryError, Box, zeros_around, zeros_inside
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial, characteristic_time_of
 from loopbook.numerics.multiple_roots import put_together
+from loopbook.numerics.right_half_plane import RootsError, chain, half_plane
 from loopbook.numerics.spectral_roots import DelaySpectrum
 
 WIDER = 1e-8
@@ -26,12 +26,7 @@ CONVERGED = 1e-12
 REACH = 16.0
 STEPS = 60
 MOST_STRIPS = 4000
-FARTHEST = 1e4
 SIX = 6
-
-
-class RootsError(LoopbookError):
-    """The region holds infinitely many roots, or they could not be told; the message says what to ask instead."""
 
 
 class Zeros(NamedTuple):
@@ -96,62 +91,6 @@ def _advanced(f: ExponentialPolynomial, box: Box | None) -> tuple[Zeros, Box]:
         )
     found, region = zeros_in(f.mirrored(), box=Box(-box.right, -box.left, -box.top, -box.bottom))
     return _sorted(-found.values, found.multiplicity), Box(-region.right, -region.left, -region.top, -region.bottom)
-
-
-def chain(f: ExponentialPolynomial) -> float:
-    """The real part that infinitely many zeros of f come near at most; -inf where they go ever farther left."""
-    leads = [(delay, abs(p[0] / f.terms[0][1][0])) for delay, p in f.terms[1:] if len(p) - 1 == f.degree]
-    if not leads:
-        return -math.inf
-    from scipy.optimize import brentq
-
-    gap = lambda x: sum(a * math.exp(-delay * x) for delay, a in leads) - 1  # noqa: E731
-    width = 1.0
-    while gap(-width) < 0 or gap(width) > 0:
-        width *= 2
-    return float(brentq(gap, -width, width, xtol=1e-15, rtol=1e-14))
-
-
-def half_plane(f: ExponentialPolynomial, right_of: float, unit: float = 1.0) -> Box:
-    """The box that holds all zeros with Re s >= right_of. unit [s]: of time, for messages. Raises RootsError."""
-    line = chain(f)
-    if right_of <= line:
-        raise RootsError(
-            f"infinitely many roots come near Re s = {line / unit:.6g} 1/s, right of {right_of / unit:.6g}: ask for "
-            "those right of a line beyond, or in a box"
-        )
-    size = np.zeros(f.degree + 1)
-    for i, (delay, p) in enumerate(f.terms):
-        if delay * right_of < -600:
-            raise RootsError(f"Re s = {right_of / unit:.6g} 1/s is more than 600 dead times' decay away: ask nearer")
-        here = np.abs(p) * math.exp(-delay * right_of)
-        size[len(size) - len(p) :] += here if i else -here
-    lead, rest = -size[0], size[1:] if len(size) > 1 else size[:0]
-    rest = np.abs(f.terms[0][1][1:]) * 2 + rest  # |p_0| >= |a| R^n - the others
-    reach = _largest_root(lead, rest)
-    if reach * f.delays[-1] > FARTHEST:
-        raise RootsError(
-            f"right of {right_of / unit:.6g} there may be some {reach * f.delays[-1] / math.pi:.2g} roots, up to "
-            f"{reach / unit:.4g} rad/s: ask for those farther right, or in a box"
-        )
-    return Box(right_of, max(reach, right_of) + 1e-3 * reach + 1e-9, -1.001 * reach - 1e-9, 1.001 * reach + 1e-9)
-
-
-def _largest_root(lead: float, rest: np.ndarray) -> float:
-    """The R > 0 with lead R^n = rest_0 R^(n-1) + ... (one change of sign)."""
-    if not rest.any():
-        return 0.0
-    n = len(rest)
-    ratio = rest / lead
-    high = 2 * max(float(c) ** (1 / (k + 1)) for k, c in enumerate(ratio) if c)  # Fujiwara
-    low = 0.0
-    for _ in range(60):
-        middle = (low + high) / 2
-        below = sum(float(c) / middle ** (k + 1) for k, c in enumerate(ratio)) < 1
-        low, high = (low, middle) if below else (middle, high)
-        if high - low < 1e-3 * high or n == 1:
-            break
-    return high
 
 
 def _of_the_rightmost(f: ExponentialPolynomial, spectrum: DelaySpectrum, unit: float) -> tuple[Box, float | None]:

@@ -321,6 +321,8 @@ def simplest(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Process 
     shared = min(p[::-1].index(next(c for c in reversed(p) if c)) for f in (num, den) for _, p in f.terms)
     num, den = num.over_s(shared), den.over_s(shared)
     (_, below), *others = den.terms
+    if not others and len(below) == 1:
+        num, below = num.over(below[0]), (1.0,)
     longest = max(map(abs, num.delays))
     proper = all(delay >= -SAME_DELAY * longest and len(p) <= len(below) for delay, p in num.terms)
     if others or not proper:

@@ -9,8 +9,9 @@ from loopbook.controllers.pid_forms import PidStandard
 from loopbook.loop.continuous import Loop
 from loopbook.loop.roots import poles, zeros
 from loopbook.numerics.argument_principle import Box, zeros_inside
-from loopbook.numerics.characteristic_roots import RootsError, zeros_in
+from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
+from loopbook.numerics.right_half_plane import RootsError
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
 
