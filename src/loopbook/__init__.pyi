@@ -6,8 +6,7 @@ from loopbook import documents as documents
 from loopbook import experiments as experiments
 from loopbook import plots as plots
 from loopbook import tuning as tuning
-from loopbook.controllers.interop import from_control as from_control
-from loopbook.controllers.interop import to_control as to_control
+from loopbook.controllers.as_pid import as_pid as as_pid
 from loopbook.controllers.on_off import OnOff as OnOff
 from loopbook.controllers.parallel_settings import ParallelSettings as ParallelSettings
 from loopbook.controllers.pid import Pid as Pid
@@ -35,6 +34,8 @@ from loopbook.loop.feedback import feedback as feedback
 from loopbook.loop.feedforward import FeedforwardLoop as FeedforwardLoop
 from loopbook.loop.feedforward import feedforward as feedforward
 from loopbook.loop.general import GeneralLoop as GeneralLoop
+from loopbook.loop.interop import from_control as from_control
+from loopbook.loop.interop import to_control as to_control
 from loopbook.loop.roots import dcgain as dcgain
 from loopbook.loop.roots import poles as poles
 from loopbook.loop.roots import zeros as zeros
@@ -98,6 +99,7 @@ __all__ = [
     "TransferFunction",
     "Tuning",
     "TwoLagData",
+    "as_pid",
     "bode",
     "c2d",
     "compare",
