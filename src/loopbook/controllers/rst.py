@@ -23,6 +23,7 @@ from loopbook.numerics import polynomial_text
 from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.numerics.recursion import recursion
 from loopbook.numerics.units import CANCELLED
+from loopbook.process import formulas
 
 Polynomial = Sequence[float] | np.ndarray
 NEAR = 1e-8
@@ -117,6 +118,11 @@ class Rst:
         """R, S and T in LaTeX, in powers of z^-1."""
         rows = (f"{name} &= {polynomial_text.in_delays(getattr(self, name))}" for name in "RST")
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
+
+    def __repr__(self) -> str:
+        rows = ", ".join(f"{name}={formulas.short_row(getattr(self, name))}" for name in "RST")
+        observer = "" if self.observer == (1.0,) else f", observer={formulas.short_row(self.observer)}"
+        return f"Rst({rows}, h={self.h!r}{observer})"
 
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"

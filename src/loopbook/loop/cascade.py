@@ -8,13 +8,17 @@ with dead time in both parts, exactly.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
+
+import numpy as np
 
 from loopbook.loop.closed import LoopRows
 from loopbook.loop.continuous import Loop
 from loopbook.loop.general import GeneralLoop
 from loopbook.loop.margins import Margins
+from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
+from loopbook.plots.frequency import Curve
 from loopbook.process.algebra import TransferAlgebra
 from loopbook.process.transfer_function import Process, simplest
 from loopbook.response.closed_loop import ResponseError
@@ -23,8 +27,8 @@ SOURCES = ("reference", "inner load", "outer load", "noise")
 OUTPUTS = ("y", "y1", "u", "r1")
 
 
-@dataclass(frozen=True)
-class CascadeLoop:
+@dataclass(frozen=True, repr=False)
+class CascadeLoop(ShownLoop):
     """inner_process P1, outer_process P2; their regulators, anything that a `Loop` takes.
 
     inner: the inner loop by itself. outer: the loop of the outer regulator around the closed inner one and P2; margins,
@@ -35,6 +39,8 @@ class CascadeLoop:
     >>> cascade.is_stable, round(cascade.margins().Ms.value, 3), round(cascade.inner.margins().Ms.value, 3)
     (True, 1.455, 2.143)
     """
+
+    half_way: ClassVar[str] = "inner load"
 
     inner_process: Process
     outer_process: Process
@@ -88,6 +94,29 @@ class CascadeLoop:
         back = simplest(S1 * R2 * A2 + T1 * S2 * B2, R1 * R2 * A2)
         opened = simplest(B1.delayed(L1), A1) * back
         return GeneralLoop(opened, 1.0).margins()
+
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        rows = [["inner process", self.inner_process], ["inner regulator", self.inner_regulator]]
+        rows += [["outer process", self.outer_process], ["outer regulator", self.outer_regulator]]
+        return [[name, said_of(part)] for name, part in rows]
+
+    def frequency_curve(self, w: np.ndarray | None = None) -> Curve:
+        """That of the outer loop."""
+        return self.outer.frequency_curve(w)
+
+    def default_horizon(self) -> float:
+        """Three times the settling time [s]."""
+        return self.outer.default_horizon()
+
+    def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """((t, y), (t, u)) after a unit step of the reference at 0 and of the inner load at half the horizon [s]."""
+        t = np.linspace(0.0, horizon, 800)
+        y, u = (
+            self.closed("reference", output).step(t) + self.closed("inner load", output).step(t - horizon / 2)
+            for output in ("y", "u")
+        )
+        return (t, y), (t, u)
 
     @property
     def _inner_rows(self) -> LoopRows:

@@ -1,8 +1,9 @@
-"""The crossovers of a transfer function on the unit circle as objects with their frequencies."""
+"""The crossovers and margins of a transfer function on the unit circle as objects with their frequencies."""
 
 import numpy as np
 
-from loopbook.loop.margins import GainCrossover, PhaseCrossover
+from loopbook.loop.margins import GainCrossover, Margins, PhaseCrossover
+from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
 from loopbook.loop.unit_circle import CircleTransfer
 
 NONE = 1e-9
@@ -24,4 +25,20 @@ def phase_crossovers(circle: CircleTransfer, h: float) -> tuple[PhaseCrossover, 
         PhaseCrossover(angle / h, factor)
         for angle in angles.tolist()
         if (factor := float(1 / abs(circle(np.array(angle))))) > NONE
+    )
+
+
+def circle_margins(circle: CircleTransfer, h: float) -> Margins:
+    """The margins of a stable loop whose transfer function on the circle is given."""
+    at_gain, at_phase = gain_crossovers(circle, h), phase_crossovers(circle, h)
+    Ms, Mt = sampled_peaks(circle)
+    return Margins(
+        gain=min((c.gain for c in at_phase if c.gain > 1), default=np.inf),
+        gain_low=max((c.gain for c in at_phase if c.gain < 1), default=0.0),
+        phase=min((c.phase_margin for c in at_gain), key=abs, default=np.inf),
+        delay=min((c.delay_margin for c in at_gain), default=np.inf),
+        Ms=Peak(Ms.value, Ms.w / h),
+        Mt=Peak(Mt.value, Mt.w / h),
+        gain_crossovers=at_gain,
+        phase_crossovers=at_phase,
     )

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
-from loopbook.process.coefficients import over_one_denominator
+from loopbook.process.rows import over_one_denominator
 from loopbook.process.transfer_function import DelayedSum, Process, TransferFunction, simplest
 from loopbook.response.closed_loop import INPUTS, ResponseError
 

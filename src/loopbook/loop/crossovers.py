@@ -11,12 +11,13 @@ from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.stability import is_stable
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.transfer_function import Process
 
 
-@dataclass(frozen=True)
-class Crossovers(ShownAsTable):
+@dataclass(frozen=True, repr=False)
+class Crossovers(ShortRepr, ShownAsTable):
     """stable: is the closed loop? Only then the values are margins. gain, phase: all crossovers, ascending in w."""
 
     stable: bool

@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 
 from loopbook.controllers.rst import Rst
-from loopbook.loop.circle_margins import gain_crossovers, phase_crossovers
+from loopbook.loop.circle_margins import circle_margins
+from loopbook.loop.frequency_curves import of_circle
 from loopbook.loop.margins import Margins
 from loopbook.loop.sampled import BORDER, CROWDED, FEW
-from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
+from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
+from loopbook.plots.frequency import Curve
+from loopbook.plots.stairs import stairs
 from loopbook.process.discrete import DiscreteProcess
 
 SOURCES, OUTPUTS = ("reference", "load", "noise"), ("y", "u")
@@ -32,8 +35,8 @@ def _rst(regulator: Any, h: float) -> Rst:
     return Rst(tuple(one.den), tuple(one.num), tuple(one.num), h)
 
 
-@dataclass(frozen=True)
-class DiscreteLoop:
+@dataclass(frozen=True, repr=False)
+class DiscreteLoop(ShownLoop):
     """plant: a `DiscreteProcess` or a `SampledProcess`. regulator: an `Rst`, a `DiscreteProcess`, or a number.
 
     >>> loop = DiscreteLoop(DiscreteProcess.in_z([0.04798, 0.0464], [1, -1.81, 0.9048], 0.1))
@@ -112,6 +115,33 @@ class DiscreteLoop:
         }[source, output]
         return DiscreteProcess(tuple(above), tuple(below), self.h)
 
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        return [["plant", said_of(self.plant)], ["regulator", said_of(self.regulator)], ["h [s]", self.h]]
+
+    def frequency_curve(self, w: np.ndarray | None = None) -> Curve:
+        """Gain and phase of the loop transfer at w [rad/s], with its margins: what a diagram draws."""
+        return of_circle(self.on_circle, self.h, w, self.is_stable)
+
+    def default_horizon(self) -> float:
+        """As long as the slowest pole rings [s], at least sixty samples."""
+        slowest = float(abs(self.poles).max(initial=0.0))
+        if not slowest < 1:
+            raise LoopError("the loop is unstable: its steps have no end; give a horizon")
+        return self.h * max(12 / max(-np.log(max(slowest, 1e-9)), 1e-9), 60.0)
+
+    def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """((t, y), (t, u)), held between samples, after unit steps of the reference at 0 and of the load half-way."""
+        steps = int(np.ceil(horizon / self.h))
+        at_once = np.ones(steps + 1)
+        later = (np.arange(steps + 1) >= steps // 2).astype(float)
+        t = self.h * np.arange(steps + 1)
+        y, u = (
+            self.closed("reference", output).response(at_once) + self.closed("load", output).response(later)
+            for output in ("y", "u")
+        )
+        return stairs(t, y), stairs(t, u)
+
     def margins(self) -> Margins:
         """All margins, each with its frequency [rad/s]; Ms and Mt over the whole circle, certified.
 
@@ -127,19 +157,3 @@ def circle_of(system: DiscreteProcess) -> CircleTransfer:
     """A transfer function in z on the unit circle."""
     zeros, poles = (np.roots(row).astype(complex) for row in (np.trim_zeros(system.num, "f"), system.den))
     return CircleTransfer(np.asarray(system.num), np.asarray(system.den), zeros, poles)
-
-
-def circle_margins(circle: CircleTransfer, h: float) -> Margins:
-    """The margins of a stable loop whose transfer function on the circle is given."""
-    at_gain, at_phase = gain_crossovers(circle, h), phase_crossovers(circle, h)
-    Ms, Mt = sampled_peaks(circle)
-    return Margins(
-        gain=min((c.gain for c in at_phase if c.gain > 1), default=np.inf),
-        gain_low=max((c.gain for c in at_phase if c.gain < 1), default=0.0),
-        phase=min((c.phase_margin for c in at_gain), key=abs, default=np.inf),
-        delay=min((c.delay_margin for c in at_gain), default=np.inf),
-        Ms=Peak(Ms.value, Ms.w / h),
-        Mt=Peak(Mt.value, Mt.w / h),
-        gain_crossovers=at_gain,
-        phase_crossovers=at_phase,
-    )

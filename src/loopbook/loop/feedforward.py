@@ -6,18 +6,21 @@ is nearest to it can: without the lead in time, behind a filter, or its static g
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from loopbook.loop.continuous import Loop, StepResponse
+from loopbook.loop.continuous import Loop
 from loopbook.loop.feedback import transfer_of
 from loopbook.loop.general import GeneralLoop
 from loopbook.loop.margins import Margins
 from loopbook.loop.roots import poles
+from loopbook.loop.shown_loop import ShownLoop, said_of
+from loopbook.loop.step_response import StepResponse
 from loopbook.loop.transfer import LoopError
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import positive
+from loopbook.plots.frequency import Curve
 from loopbook.process.algebra import TransferAlgebra
 from loopbook.process.transfer_function import DelayedSum, Process
 
@@ -68,8 +71,8 @@ def feedforward(process: Process, path: Process, filter: float | None = None) ->
     return Feedforward(found.delayed(max(late, 0.0)), not said, "; ".join(said))
 
 
-@dataclass(frozen=True)
-class FeedforwardLoop:
+@dataclass(frozen=True, repr=False)
+class FeedforwardLoop(ShownLoop):
     """A `Loop` with a measured disturbance. path: W; forward: F, a transfer function or a number.
 
     Stability, poles and margins are those of the loop, as long as F and W are stable.
@@ -79,6 +82,8 @@ class FeedforwardLoop:
     >>> loop.closed("disturbance", "y")
     Process(num=(0.0,), den=(1.0,), delay=0.0)
     """
+
+    half_way: ClassVar[str] = "disturbance"
 
     process: Process
     regulator: Any
@@ -109,6 +114,27 @@ class FeedforwardLoop:
     def margins(self) -> Margins:
         """Those of the loop."""
         return self.loop.margins()
+
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        return [*self.loop.parts(), ["feedforward of w", said_of(self.forwarded)]]
+
+    def frequency_curve(self, w: np.ndarray | None = None) -> Curve:
+        """That of the feedback loop."""
+        return self.loop.frequency_curve(w)
+
+    def default_horizon(self) -> float:
+        """Three times the settling time [s]."""
+        return self.loop.default_horizon()
+
+    def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """((t, y), (t, u)) after a unit step of the reference at 0 and of the disturbance w at half the horizon [s]."""
+        t = np.linspace(0.0, horizon, 800)
+        y, u = (
+            self.closed("reference", output).step(t) + self.closed("disturbance", output).step(t - horizon / 2)
+            for output in ("y", "u")
+        )
+        return (t, y), (t, u)
 
     def closed(self, source: str = "reference", output: str = "y") -> TransferAlgebra:
         """As of the loop; from "disturbance" with the feedforward."""

@@ -14,18 +14,20 @@ from typing import Any
 import numpy as np
 
 from loopbook.controllers.regulator import Regulator
-from loopbook.loop.continuous import PATIENCE, StepResponse
+from loopbook.loop.continuous import PATIENCE
+from loopbook.loop.frequency_curves import of_sums
 from loopbook.loop.margins import GainCrossover, Margins, PhaseCrossover
 from loopbook.loop.ratio_curve import RatioCurve
 from loopbook.loop.sensitivity_peaks import Peak, closest
+from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.stability import BorderError
+from loopbook.loop.step_response import StepResponse
 from loopbook.loop.transfer import LoopError
 from loopbook.numerics.argument_principle import BoundaryError
 from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial, characteristic_time_of
-from loopbook.numerics.right_half_plane import count_right
-from loopbook.plots.curves import curves
-from loopbook.plots.shown import shown_once
+from loopbook.numerics.right_half_plane import zeros_on_the_right
+from loopbook.plots.frequency import Curve
 from loopbook.process.algebra import TransferAlgebra
 from loopbook.process.transfer_function import simplest
 from loopbook.response.closed_loop import INPUTS, ResponseError
@@ -51,8 +53,8 @@ class DelayedRegulator:
         return cls(*(ExponentialPolynomial.of(row) for row in (rows.T, rows.S, rows.R)))
 
 
-@dataclass(frozen=True)
-class GeneralLoop:
+@dataclass(frozen=True, repr=False)
+class GeneralLoop(ShownLoop):
     """process: any transfer function. regulator: a `DelayedRegulator` or what a `Loop` takes. path: W, if there is one.
 
     >>> from loopbook.process.transfer_function import Process
@@ -119,7 +121,7 @@ class GeneralLoop:
         Raises BorderError, a LoopError, for one on the imaginary axis.
         """
         try:
-            return count_right(self.characteristic)
+            return zeros_on_the_right(self.characteristic)
         except BoundaryError as error:
             raise BorderError(abs(error.at.imag)) from None
 
@@ -173,7 +175,7 @@ class GeneralLoop:
         """y and u after a unit step of one input at t = 0 from rest, exact to rounding; as of a `Loop`."""
         until = self.settling_horizon() if horizon is None else float(horizon)
         y, u = (self.closed(source, output).step_signal(until) for output in ("y", "u"))
-        return StepResponse(self, source, until, y, u)
+        return StepResponse(self, source, until, y, u, settled=horizon is None)
 
     def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """((t, y), (t, u)) after a unit step of the reference at 0 and one of the load at half the horizon [s]."""
@@ -182,11 +184,22 @@ class GeneralLoop:
         y2, u2 = self.step("load", horizon).after([(horizon / 2, 1.0)], t)
         return (t, y1 + y2), (t, u1 + u2)
 
-    def plot(self, horizon: float | None = None) -> Any:
-        """y and u after a unit step of the reference, and of the load at half the horizon [s]: a matplotlib figure."""
-        y, u = self.reference_and_load(horizon or 3 * self.step("reference").metrics().settling)
-        title = "Unit steps of the reference (at once) and of the load (half-way)"
-        return shown_once(curves({"output $y$": {"y": y}, "input $u$": {"u": u}}, title))
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        rows = [["process", said_of(self.process)], ["regulator", said_of(self.regulator)]]
+        return rows if self.path is None else [*rows, ["path of w", said_of(self.path)]]
+
+    def default_horizon(self) -> float:
+        """Three times the settling time [s]."""
+        return 3 * float(self.step("reference").metrics().settling)
+
+    def frequency_curve(self, w: np.ndarray | None = None) -> Curve:
+        """Gain and phase of the loop transfer at w [rad/s], with its margins: what a diagram draws."""
+        try:
+            found = self.margins()
+        except LoopError:
+            found = None
+        return of_sums(self.transfer, w, found)
 
 
 def ratio_margins(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Margins:

@@ -119,8 +119,8 @@ def from_control(system: Any, delay: float = 0.0) -> Any:
     control = needed("control", "control")
     if not isinstance(system, control.TransferFunction | control.StateSpace):
         raise ProcessError(
-            f"from_control takes a TransferFunction or a StateSpace, got a {type(system).__name__}, in which no poles and "
-            "zeros stand"
+            f"from_control takes a TransferFunction or a StateSpace, got a {type(system).__name__}, which has no poles "
+            "and zeros to be read"
         )
     if system.ninputs != 1 or system.noutputs != 1:
         many = f"{system.ninputs} and {system.noutputs}"

@@ -15,10 +15,12 @@ import numpy as np
 from loopbook.controllers.regulator import Regulator
 from loopbook.loop.general import DelayedRegulator, GeneralLoop
 from loopbook.loop.margins import Margins
+from loopbook.loop.shown_loop import said_of
 from loopbook.loop.transfer import LoopError
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import real
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.process.transfer_function import Process
 
 
@@ -29,8 +31,8 @@ class Between(NamedTuple):
     high: float
 
 
-@dataclass(frozen=True)
-class SmithRobustness(ShownAsTable):
+@dataclass(frozen=True, repr=False)
+class SmithRobustness(ShortRepr, ShownAsTable):
     """What the loop bears, the predictor as it is.
 
     delay: the dead times [s] of the process between which it stays stable. gain: the factors on its gain. model_delay:
@@ -50,7 +52,7 @@ class SmithRobustness(ShownAsTable):
         return PlainTable(["stable for a process with", "from", "to"], rows, notes)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SmithLoop(GeneralLoop):
     """A process under a regulator that is tuned for the model without dead time.
 
@@ -97,6 +99,10 @@ class SmithLoop(GeneralLoop):
     @property
     def _lags_are_known(self) -> bool:
         return self.predicted.den == self.process.den
+
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        return [*super().parts(), ["model of the predictor", said_of(self.predicted)]]
 
     def with_delay(self, more: float) -> "SmithLoop":
         """The same predictor on a process with `more` seconds of dead time added; it may be negative."""

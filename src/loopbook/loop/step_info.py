@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.loop.continuous import Loop, StepResponse
+from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
+from loopbook.loop.step_response import StepResponse
 from loopbook.loop.without_dead_time import time_to_settle
 from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step

@@ -6,23 +6,25 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.loop.roots import poles
+from loopbook.loop.roots import dcgain, poles
 from loopbook.numerics.signals import Signal
 from loopbook.plots.curves import curves
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
 from loopbook.process.algebra import LAPLACE, TransferAlgebra
+from loopbook.process.horizon import default_horizon
 from loopbook.response.closed_loop import ResponseError
-from loopbook.response.step_metrics import StepMetrics, StepMetricsError
+from loopbook.response.step_metrics import StepMetrics, StepMetricsError, exact_metrics
 
 KINDS = ("step", "impulse", "ramp")
 POINTS = 1200
-TIME_CONSTANTS, DOUBLINGS, SAMPLES = 5.0, 6.0, 60
+SAMPLES = 60
 
 
-@dataclass(frozen=True)
-class Course:
+@dataclass(frozen=True, repr=False)
+class Course(ShortRepr):
     """One response. signal: y in continuous time, None of a sampled system. t, y: as drawn. final: lim y or nan."""
 
     signal: Signal | None
@@ -35,13 +37,13 @@ class Course:
         if self.signal is None or not np.isfinite(self.final):
             return None
         try:
-            return exact(self.signal, self.final, self.signal.end)
+            return exact_metrics(self.signal, self.final, self.signal.end)
         except StepMetricsError:
             return None
 
 
-@dataclass(frozen=True)
-class Response(ShownAsTable):
+@dataclass(frozen=True, repr=False)
+class Response(ShortRepr, ShownAsTable):
     """The response of one system, or of several by name, to one kind of input. Make it with `step_response` and others.
 
     Called with times [s] it gives y there, of several a mapping of names to y.
@@ -64,7 +66,8 @@ class Response(ShownAsTable):
         rows = []
         for name, course in self.courses.items():
             i = int(np.argmax(np.abs(course.y)))
-            row: list[Any] = [name, course.final, float(course.y[i]), float(course.t[i])]
+            final = course.final if np.isfinite(course.final) else ""
+            row: list[Any] = [name, final, float(course.y[i]), float(course.t[i])]
             if self.kind == "step":
                 m = course.metrics()
                 row += ["", "", ""] if m is None else [m.rise, m.settling, m.overshoot]
@@ -125,7 +128,7 @@ def _response(kind: str, system: Any, horizon: float | None) -> Response:
         raise ResponseError(f"horizon = {horizon!r} s: a positive number of seconds is expected")
     if horizon is None:
         continuous = [_transfer(one) for one in named.values() if not _is_sampled(one)]
-        horizon = max((default_horizon(one) for one in continuous), default=None)
+        horizon = max((default_horizon(*one.fraction) for one in continuous), default=None)
     return Response(kind, {name: _course(kind, one, horizon) for name, one in named.items()})
 
 
@@ -141,33 +144,12 @@ def _transfer(system: Any) -> TransferAlgebra:
     return system
 
 
-def default_horizon(system: TransferAlgebra) -> float:
-    """A time [s] in which all that is worth seeing happens.
-
-    >>> from loopbook.process.transfer_function import Process
-    >>> default_horizon(Process([1], [2, 1], 3))
-    15.0
-    """
-    num, den = system.fraction
-    found = np.asarray(poles(system))
-    delay = max([*num.delays, *den.delays, 0.0])
-    size = float(np.abs(found).max(initial=0.0))
-    growing = found.real[found.real > 1e-9 * size]
-    if growing.size:
-        return delay + DOUBLINGS / float(growing.max())
-    decays = -found.real[found.real < -1e-9 * size]
-    if not decays.size:
-        return 10 * delay or (DOUBLINGS * 2 * np.pi / size if size else 10.0)
-    rest = float((1 / decays).sum()) - 1 / float(decays.min()) if len(den.terms) == 1 else delay
-    return delay + (TIME_CONSTANTS + 1) / float(decays.min()) + rest
-
-
 def _course(kind: str, system: Any, horizon: float | None) -> Course:
     if _is_sampled(system):
         return _of_sampled(kind, system, horizon)
     transfer = _transfer(system)
     num, den = transfer.fraction
-    until = default_horizon(transfer) if horizon is None else horizon
+    until = default_horizon(num, den) if horizon is None else horizon
     if kind == "impulse":
         if num.degree >= den.degree and not num.is_zero:
             raise ResponseError(
@@ -188,7 +170,8 @@ def _of_sampled(kind: str, system: Any, horizon: float | None) -> Course:
     steps = SAMPLES if horizon is None else max(int(np.ceil(horizon / h)), 1)
     k = np.arange(steps + 1)
     u = {"step": np.ones(len(k)), "impulse": (k == 0).astype(float), "ramp": h * k}[kind]
-    return Course(None, *stairs(h * k, system.response(u)), final=float("nan"))
+    settles = kind == "step" and (np.abs(np.asarray(poles(system))) < 1).all()
+    return Course(None, *stairs(h * k, system.response(u)), final=dcgain(system) if settles else float("nan"))
 
 
 def _at(course: Course, times: Any) -> np.ndarray:

@@ -34,12 +34,12 @@ def chain(f: ExponentialPolynomial) -> float:
     return float(brentq(gap, -width, width, xtol=1e-15, rtol=1e-14))
 
 
-def count_right(f: ExponentialPolynomial) -> float:
+def zeros_on_the_right(f: ExponentialPolynomial) -> float:
     """How many zeros have a positive real part; infinitely many for an equation with a chain of them there.
 
     Raises BoundaryError for one on the imaginary axis.
 
-    >>> count_right(ExponentialPolynomial.of([1.0, -1.0]) + ExponentialPolynomial.of([0.5], 1.0))
+    >>> zeros_on_the_right(ExponentialPolynomial.of([1.0, -1.0]) + ExponentialPolynomial.of([0.5], 1.0))
     1
     """
     f = f.delayed(-f.delays[0])

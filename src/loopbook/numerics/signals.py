@@ -45,6 +45,9 @@ class Signal:
         if self.edges.shape != (len(self.coefficients) + 1,):
             raise ValueError(f"{len(self.coefficients)} cells need {len(self.coefficients) + 1} edges")
 
+    def __repr__(self) -> str:
+        return f"Signal({len(self.coefficients)} cells from {self.start:g} to {self.end:g} s)"
+
     @property
     def start(self) -> float:
         return float(self.edges[0])

@@ -8,16 +8,20 @@ import numpy as np
 
 from loopbook.controllers.regulator import Regulator
 from loopbook.controllers.rst import PlacementError
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.pole_placement.polynomial_equation import PolynomialEquationError, PolynomialSolution, diophantine
 from loopbook.process.transfer_function import Process
 
 
-@dataclass(frozen=True)
-class ContinuousPlacementResult:
+@dataclass(frozen=True, repr=False)
+class ContinuousPlacementResult(ShortRepr):
     """regulator: the `Regulator` with R, S, T. solution: of the polynomial equation, with condition and residual."""
 
     regulator: Regulator
     solution: PolynomialSolution
+
+    def _repr_latex_(self) -> str:
+        return self.regulator._repr_latex_()
 
 
 def place_continuous(

@@ -6,12 +6,13 @@ import numpy as np
 
 from loopbook.controllers.rst import NEAR, PlacementError, Polynomial, Rst, _row, with_zeros, zeros_of
 from loopbook.numerics.real_numbers import positive
+from loopbook.plots.short_repr import ShortRepr
 
 CONTAINED = 1e-9
 
 
-@dataclass(frozen=True)
-class Placement:
+@dataclass(frozen=True, repr=False)
+class Placement(ShortRepr):
     """A solved pole placement. regulator: the `Rst`. condition: of the Sylvester matrix with columns scaled to 1; the
     relative error of the coefficients is at most about condition * 1e-16. residual: largest |A R + B S - P A_o B+|
     relative to the largest coefficient of A R. cancelled: the zeros of B that were.
@@ -21,6 +22,9 @@ class Placement:
     condition: float
     residual: float
     cancelled: np.ndarray
+
+    def _repr_latex_(self) -> str:
+        return self.regulator._repr_latex_()
 
 
 def well_damped(zeros: np.ndarray, damping: float) -> np.ndarray:

@@ -15,6 +15,7 @@ from derivations.errors import LoopbookError
 from derivations.pole_placement import polynomial_equation as exact
 from loopbook.numerics.real_numbers import plain_number
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 
 NEAR, DIVIDES = 1e-8, 1e-7
 
@@ -23,8 +24,8 @@ class PolynomialEquationError(LoopbookError):
     """A X + B Y = C has no solution, or its data are no polynomials; the message says which factor or which row."""
 
 
-@dataclass(frozen=True)
-class PolynomialSolution(ShownAsTable):
+@dataclass(frozen=True, repr=False)
+class PolynomialSolution(ShortRepr, ShownAsTable):
     """One solution and the way to all others. Rows of descending coefficients; exact ones are fractions or letters.
 
     X, Y: the solution of least degree. common: gcd(A, B). of_X, of_Y: B/g and A/g: with any polynomial T,

@@ -15,7 +15,7 @@ import numpy as np
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number, real
 from loopbook.numerics.signals import Signal
-from loopbook.process.coefficients import ProcessError, over_one_denominator
+from loopbook.process.rows import ProcessError, over_one_denominator
 
 Fraction = tuple[ExponentialPolynomial, ExponentialPolynomial]
 ONE = ExponentialPolynomial.of((1.0,))

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.process.coefficients import ProcessError
+from loopbook.process.rows import ProcessError
 
 PER_DECADE = 200
 DECADES = 6

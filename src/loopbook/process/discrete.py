@@ -20,7 +20,7 @@ from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
 from loopbook.process import formulas
 from loopbook.process.approximation import Approximates
-from loopbook.process.coefficients import ProcessError, checked_coefficients
+from loopbook.process.rows import ProcessError, checked_coefficients
 from loopbook.process.transfer_function import Process
 
 SAMPLES = 60
@@ -28,8 +28,8 @@ SAMPLES = 60
 
 def _row(values: Any, name: str) -> np.ndarray:
     """Ascending coefficients of z^-1 without zeros at the end."""
-    row = np.asarray(checked_coefficients(tuple(reversed(list(np.atleast_1d(np.asarray(values, dtype=object))))), name))[::-1]
-    return row
+    reversed_row = np.atleast_1d(np.asarray(values, dtype=object))[::-1]
+    return np.asarray(checked_coefficients(tuple(reversed_row), name))[::-1]
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,8 @@ class DiscreteProcess(Approximates):
 
     def __repr__(self) -> str:
         named = f", method={self.method!r}" if self.method else ""
-        return f"DiscreteProcess(num={formulas.short(self.num)}, den={formulas.short(self.den)}, h={self.h!r}{named})"
+        rows = f"num={formulas.short_row(self.num)}, den={formulas.short_row(self.den)}"
+        return f"DiscreteProcess({rows}, h={self.h!r}{named})"
 
     def with_other(self, other: Any) -> "DiscreteProcess | None":
         """What this one can be combined with, as one of its kind; None for what is neither a plant nor a number."""

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics.real_numbers import positive, real
-from loopbook.process.coefficients import ProcessError
 from loopbook.process.discrete import DiscreteProcess
+from loopbook.process.rows import ProcessError
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.thiran import thiran
 from loopbook.process.transfer_function import Process

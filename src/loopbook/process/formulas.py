@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from loopbook.numerics import polynomial_text
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 
-SHOWN, LONGEST = 9, 110
+SHOWN, LONGEST = 85, 110
 
 
 def ratio(num: Sequence[float], den: Sequence[float], delay: float = 0.0) -> str:
@@ -49,15 +49,14 @@ def terms(f: ExponentialPolynomial) -> str:
     return text or "0"
 
 
-def short(row: Sequence[float]) -> str:
+def short_row(row: Sequence[float]) -> str:
     """A row for a terminal; of a long one its ends and how many there are.
 
-    >>> short((1.0, 2.0)), short(tuple(map(float, range(20))))
-    ('(1.0, 2.0)', '(0.0, 1.0, 2.0, ..., 19.0; 20 numbers)')
+    >>> short_row((1.0, 2.0)), short_row(tuple(map(float, range(30))))
+    ('(1.0, 2.0)', '(0.0, 1.0, ..., 29.0; 30 numbers)')
     """
-    if len(row) <= SHOWN:
-        return repr(tuple(row))
-    return f"({', '.join(map(repr, row[:3]))}, ..., {row[-1]!r}; {len(row)} numbers)"
+    text = repr(tuple(row))
+    return text if len(text) <= SHOWN else f"({row[0]!r}, {row[1]!r}, ..., {row[-1]!r}; {len(row)} numbers)"
 
 
 def plain(f: ExponentialPolynomial) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any, Self
 
 from loopbook.extras import needed
-from loopbook.process.coefficients import ProcessError
+from loopbook.process.rows import ProcessError
 
 
 class Interchange:

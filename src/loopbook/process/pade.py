@@ -13,7 +13,7 @@ from typing import Any
 
 from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.process.approximation import Approximates
-from loopbook.process.coefficients import ProcessError
+from loopbook.process.rows import ProcessError
 from loopbook.process.transfer_function import Process
 
 MOST = 60

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from loopbook.numerics.real_numbers import positive
-from loopbook.process.coefficients import ProcessError
+from loopbook.process.rows import ProcessError
 from loopbook.process.transfer_function import Process
 
 

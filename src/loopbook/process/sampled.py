@@ -65,6 +65,9 @@ class SampledProcess:
     whole: int
     tau: float
 
+    def __repr__(self) -> str:
+        return f"SampledProcess({self.process!r}, h={self.h!r})"
+
     @cached_property
     def matrices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Phi (n, n), Gamma_0 (n,), Gamma_1 (n,)."""

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics.real_numbers import plain_number
-from loopbook.process.coefficients import ProcessError
 from loopbook.process.discrete import DiscreteProcess
+from loopbook.process.rows import ProcessError
 from loopbook.process.transfer_function import Process
 
 EXACT_UP_TO = 6

@@ -9,8 +9,8 @@ from fractions import Fraction
 from math import ceil, comb, prod
 
 from loopbook.numerics.real_numbers import positive
-from loopbook.process.coefficients import ProcessError
 from loopbook.process.discrete import DiscreteProcess
+from loopbook.process.rows import ProcessError
 from loopbook.process.transfer_function import Process
 
 WHOLE, MOST = Fraction(1, 10**9), 40

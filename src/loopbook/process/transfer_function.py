@@ -25,8 +25,9 @@ from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.process import formulas
 from loopbook.process.algebra import Fraction, TransferAlgebra, added
-from loopbook.process.coefficients import ProcessError, checked_coefficients, roots_of
+from loopbook.process.horizon import default_horizon
 from loopbook.process.interchange import Interchange
+from loopbook.process.rows import ProcessError, checked_coefficients, roots_of
 
 PAST_THE_END = 1e-9
 """Of a horizon: a response that jumps at its end has jumped there."""
@@ -49,6 +50,12 @@ class _Transfer(TransferAlgebra):
 
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"
+
+    def plot(self, horizon: float | None = None) -> "Figure":
+        """The unit step response as a matplotlib figure, up to the horizon [s]."""
+        y = self.step_signal(default_horizon(*self.fraction) if horizon is None else horizon)
+        t = np.linspace(0.0, y.end, 600)
+        return shown_once(curves({"output $y$": {"step response": (t, y(t))}}, "Unit step response"))
 
 
 @dataclass(frozen=True)
@@ -113,13 +120,6 @@ class Process(_Transfer, Interchange):
         """
         return formulas.ratio(self.num, self.den, self.delay)
 
-    def plot(self, horizon: float | None = None) -> "Figure":
-        """The unit step response as a matplotlib figure, up to the horizon [s]."""
-        if horizon is None:
-            horizon = self.delay * 2 + 7 * float(sum(1 / abs(p.real) for p in self.poles if p.real)) or 10.0
-        t = np.linspace(0.0, horizon, 600)
-        return shown_once(curves({"output $y$": {"step response": (t, self.step(t))}}, "Unit step response"))
-
     @property
     def fraction(self) -> Fraction:
         """num exp(-delay s) and den."""
@@ -146,7 +146,7 @@ class Process(_Transfer, Interchange):
     __radd__ = __add__
 
     def __repr__(self) -> str:
-        return f"Process(num={formulas.short(self.num)}, den={formulas.short(self.den)}, delay={self.delay!r})"
+        return f"Process(num={formulas.short_row(self.num)}, den={formulas.short_row(self.den)}, delay={self.delay!r})"
 
     @property
     def rational(self) -> "Process":
@@ -321,12 +321,12 @@ def simplest(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Process 
     shared = min(p[::-1].index(next(c for c in reversed(p) if c)) for f in (num, den) for _, p in f.terms)
     num, den = num.over_s(shared), den.over_s(shared)
     (_, below), *others = den.terms
-    if not others and len(below) == 1:
-        num, below = num.over(below[0]), (1.0,)
     longest = max(map(abs, num.delays))
     proper = all(delay >= -SAME_DELAY * longest and len(p) <= len(below) for delay, p in num.terms)
     if others or not proper:
         return TransferFunction(num, den)
+    if len(below) == 1:
+        num, below = num.over(below[0]), (1.0,)
     terms = tuple(Process(p, below, max(delay, 0.0)) for delay, p in num.terms)
     return terms[0] if len(terms) == 1 else DelayedSum(terms)
 

@@ -13,7 +13,7 @@ from loopbook.controllers.rst import PlacementError, with_zeros, zeros_of
 from loopbook.loop.continuous import Loop
 from loopbook.loop.roots import poles
 from loopbook.pole_placement.continuous import place_continuous
-from loopbook.pole_placement.numeric import place
+from loopbook.pole_placement.numeric import place_numerically
 from loopbook.pole_placement.polynomial_equation import PolynomialEquationError, diophantine
 from loopbook.process.transfer_function import Process
 
@@ -70,14 +70,14 @@ def test_a_shared_factor_in_floats():
 def test_place_cancels_a_factor_that_p_contains():
     """A = (1 - 0.5/z)(1 - 0.4/z), B = (1 - 0.5/z)/z: with 0.5 among the poles the rest is placed, else refused."""
     A, B, wanted = with_zeros([0.5, 0.4]), np.convolve([0, 1], [1, -0.5]), [0.5, 0.3, 0.2]
-    found = place(B, A, with_zeros(wanted), 1.0)
+    found = place_numerically(B, A, with_zeros(wanted), 1.0)
     r = found.regulator
     closed = np.polynomial.polynomial.polyadd(np.convolve(A, r.R), np.convolve(B, r.S))
     assert np.allclose(np.sort(zeros_of(closed).real)[-3:], np.sort(wanted), atol=1e-9) and found.residual < 1e-14
     with pytest.raises(PlacementError, match="which P does not contain"):
-        place(B, A, with_zeros([0.3, 0.3, 0.2]), 1.0)
+        place_numerically(B, A, with_zeros([0.3, 0.3, 0.2]), 1.0)
     pair = with_zeros([0.5 + 0.3j, 0.5 - 0.3j])
-    twice = place(
+    twice = place_numerically(
         np.convolve([0, 1], pair), np.convolve(pair, [1, -0.8]), np.convolve(pair, with_zeros([0.2, 0.2])), 1.0
     )
     assert twice.residual < 1e-13
@@ -89,8 +89,8 @@ def test_the_symbolic_and_the_numeric_place_agree_on_a_shared_factor():
 
     q = sp.Rational
     A, B, P = ([1, -q(9, 10), q(1, 5)], [0, 1, -q(1, 2)], [1, -1, q(31, 100), -q(3, 100)])  # P: 0.5, 0.3, 0.2
-    design = symbolic.place(polynomial(A), polynomial(B), polynomial(P), symbolic.integrators(1))
-    numeric = place(*([float(c) for c in row] for row in (B, A, P)), 1.0).regulator
+    design = symbolic.place_exactly(polynomial(A), polynomial(B), polynomial(P), symbolic.integrators(1))
+    numeric = place_numerically(*([float(c) for c in row] for row in (B, A, P)), 1.0).regulator
     assert np.allclose(numeric.S, [float(c) for c in coefficients(design.D)], rtol=1e-12)
     assert np.allclose(numeric.R, [float(c) for c in coefficients(design.C)], rtol=1e-12)
 

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from scipy.signal import cont2discrete
 
-from loopbook.process.coefficients import ProcessError
 from loopbook.process.construct import tf
 from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.discretise import c2d
 from loopbook.process.pade import pade
+from loopbook.process.rows import ProcessError
 from loopbook.process.sampled import sample
 from loopbook.process.state_space_in import ss
 from loopbook.process.thiran import thiran
