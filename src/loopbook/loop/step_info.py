@@ -6,16 +6,20 @@ from typing import Any
 import numpy as np
 
 from loopbook.loop.continuous import Loop
+from loopbook.loop.general import GeneralLoop
 from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.step_response import StepResponse
 from loopbook.loop.without_dead_time import time_to_settle
+from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step
+from loopbook.process.algebra import TransferAlgebra
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation
 from loopbook.response.step_metrics import BAND, StepMetrics, StepMetricsError, exact_metrics, sampled_metrics
 
 POINTS = 1000
+LONG = 25.0  # time constants after which nothing is left
 SETTLED = 1e-6  # what is left of the slowest mode of a sampled loop
 
 
@@ -25,11 +29,11 @@ def step_info(
 ) -> StepMetrics:  # fmt: skip
     """Step metrics of a process, a loop, a response or of samples.
 
-    system: a `Process` or `Loop` (its step response; of a loop that to the reference), a `SampledLoop`, a
+    system: a transfer function or a loop of any kind (its step response; of a loop that to the reference), a
     `StepResponse`, a `Simulation`, or samples of y at the times t [s]. convention: "exact" (continuous response, true
     final value) or "sampled" (MATLAB's stepinfo; of a continuous response at t, by default 1,000 intervals up to twice
-    the exact settling time); samples are always "sampled". final: the final value of samples, by default the last.
-    band: of the settling time, as a part of the step.
+    the exact settling time); samples are always "sampled". final: the final value in that convention, by default the
+    true one of a system and the last one of samples. band: of the settling time, as a part of the step.
     Raises StepMetricsError where there is no such response or it does not settle.
 
     >>> info = step_info(Process.fopdt(2, 10, 3))
@@ -40,7 +44,7 @@ def step_info(
         raise StepMetricsError(f"convention = {convention!r}: exact or sampled")
     if isinstance(system, Simulation):
         return sampled_metrics(system.y, system.t, final, band)
-    if not isinstance(system, Process | Loop | SampledLoop | StepResponse):
+    if not isinstance(system, TransferAlgebra | Loop | GeneralLoop | SampledLoop | StepResponse):
         return sampled_metrics(system, t, final, band)
     y, value = _response(system)
     found = exact_metrics(y, value, y.end, band=band)
@@ -48,13 +52,20 @@ def step_info(
         return found
     until = min(2 * max(found.settling, found.peak_time), y.end)
     times = np.linspace(0.0, until, POINTS + 1) if t is None else np.asarray(t, dtype=float)
-    return sampled_metrics(y(times), times, final, band)
+    return sampled_metrics(y(times), times, value if final is None else final, band)
 
 
 def _response(system: Any) -> tuple[Signal, float]:
     """The step response until it has settled, and its final value."""
     if isinstance(system, Process):
         return open_loop_step(system, time_to_settle(system)).delayed(system.delay), system.static_gain
+    if isinstance(system, TransferAlgebra):
+        num, den = system.fraction
+        slowest = -float(np.asarray(zeros_in(den)[0].values).real.max(initial=-np.inf))
+        if not slowest > 0:
+            raise StepMetricsError("the transfer function has a pole that is not on the left: it does not settle")
+        horizon = LONG / slowest + 3 * max(*num.delays, *den.delays)
+        return system.step_signal(horizon), system.static_gain
     if isinstance(system, SampledLoop):
         if not system.is_stable:
             raise StepMetricsError("the loop is not stable: its step response does not settle")
@@ -63,5 +74,5 @@ def _response(system: Any) -> tuple[Signal, float]:
         n, d = (float(np.sum(row)) for row in system.transfer)
         gain = float(np.sum(system.regulator.T) * np.sum(system.sampled.num))
         return system.step("reference", steps).between, gain / (n + d)
-    response = system.step("reference") if isinstance(system, Loop) else system
+    response = system if isinstance(system, StepResponse) else system.step("reference")
     return response.y.until(min(response.horizon, response.y.end)), response.final[0]
