@@ -45,6 +45,8 @@ from loopbook.loop.step_info import step_info as step_info
 from loopbook.loop.time_response import impulse_response as impulse_response
 from loopbook.loop.time_response import ramp_response as ramp_response
 from loopbook.loop.time_response import step_response as step_response
+from loopbook.plots.curves import curves as curves
+from loopbook.plots.stairs import stairs as stairs
 from loopbook.pole_placement.place import place as place
 from loopbook.pole_placement.polynomial_equation import diophantine as diophantine
 from loopbook.pole_placement.state_feedback import observer as observer
@@ -53,6 +55,7 @@ from loopbook.pole_placement.state_feedback import state_regulator as state_regu
 from loopbook.process.construct import tf as tf
 from loopbook.process.discrete import DiscreteProcess as DiscreteProcess
 from loopbook.process.discretise import c2d as c2d
+from loopbook.process.from_symbols import process_of as process_of
 from loopbook.process.pade import pade as pade
 from loopbook.process.reduction import reduced as reduced
 from loopbook.process.sampled import SampledProcess as SampledProcess
@@ -104,6 +107,7 @@ __all__ = [
     "c2d",
     "compare",
     "crossovers",
+    "curves",
     "dcgain",
     "design",
     "diophantine",
@@ -121,12 +125,14 @@ __all__ = [
     "place",
     "plots",
     "poles",
+    "process_of",
     "ramp_response",
     "read_csv",
     "reduced",
     "sample",
     "simulate",
     "ss",
+    "stairs",
     "state_feedback",
     "state_regulator",
     "step_info",

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from loopbook.controllers import generated
-from loopbook.controllers.settings import ANTI_WINDUP, SettingError, tracking_time
+from loopbook.controllers.settings import ANTI_WINDUP, SettingError, exact_beside_fractions, tracking_time
 from loopbook.numerics.real_numbers import plain_number
 
 
@@ -87,7 +87,9 @@ class ParallelSettings:
     def gains(self) -> tuple[Any, ...]:
         """The coefficients of the program."""
         I = self.I if self.I else None
-        return generated.parallel_gains()(self.P, I, self.D, self.Tf, self.b, self.c, self.h, self.Tt)
+        given = exact_beside_fractions(self.P, I, self.D, self.Tf, self.b, self.c, self.h, self.Tt)
+        found: tuple[Any, ...] = generated.parallel_gains()(*given)
+        return found
 
     def changed(self, **settings: Any) -> "ParallelSettings":
         """The same settings with some replaced; Tt stays as it is. SettingError for an unknown name."""

@@ -41,6 +41,17 @@ def _number(name: str, value: Any, infinite: bool = False) -> int | float | Frac
     return number
 
 
+def exact_beside_fractions(*numbers: Number) -> tuple[Number, ...]:
+    """The same numbers; ints as fractions where there is a fraction, as the ratio of two ints would be a float.
+
+    >>> exact_beside_fractions(1, Fraction(1, 3), None)
+    (Fraction(1, 1), Fraction(1, 3), None)
+    """
+    if not any(isinstance(number, Fraction) for number in numbers):
+        return numbers
+    return tuple(Fraction(number) if isinstance(number, int) else number for number in numbers)
+
+
 def tracking_time(Ti: Number, Td: Number) -> Number:
     """T_t = sqrt(Ti Td), or 0.5 Ti where Td = 0 [s]. Source: pid-report, section 4.2.3, from its [5] and [7].
 
@@ -127,7 +138,8 @@ class PidSettings:
 
     def gains(self) -> tuple[Any, ...]:
         """The coefficients of the program."""
-        found: tuple[Any, ...] = generated.gains()(self.K, self.Ti, self.Td, self.Tf, self.b, self.c, self.h, self.Tt)
+        given = exact_beside_fractions(self.K, self.Ti, self.Td, self.Tf, self.b, self.c, self.h, self.Tt)
+        found: tuple[Any, ...] = generated.gains()(*given)
         return found
 
     def changed(self, **settings: Any) -> "PidSettings":

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.numerics.argument_principle import Box
+from loopbook.numerics.argument_principle import Rectangle
 from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.right_half_plane import RootsError
@@ -25,7 +25,7 @@ class Roots(ShownAsTable):
 
     values: np.ndarray
     multiplicity: np.ndarray
-    region: Box | None = None
+    region: Rectangle | None = None
     h: float | None = None
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray:
@@ -140,7 +140,7 @@ def _of(f: ExponentialPolynomial | None, system: Any, kind: str, right_of: float
         raise RootsError("right_of and box: give one of them")
     if f.is_zero:
         return Roots(np.zeros(0, complex), np.zeros(0, int))
-    region = None if box is None else Box(*map(float, box))
+    region = None if box is None else Rectangle(*map(float, box))
     if region is not None and not (region.left < region.right and region.bottom < region.top):
         raise RootsError(f"box = {box}: left < right and bottom < top are expected")
     found, searched = zeros_in(f, None if right_of is None else float(right_of), region)

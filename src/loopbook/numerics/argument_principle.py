@@ -29,7 +29,7 @@ class BoundaryError(LoopbookError):
         super().__init__(f"a root lies on the boundary of the region, near s = {at:.6g}: move the boundary")
 
 
-class Box(NamedTuple):
+class Rectangle(NamedTuple):
     """left <= Re s <= right, bottom <= Im s <= top [1/s]."""
 
     left: float
@@ -41,19 +41,19 @@ class Box(NamedTuple):
         """Which s lie inside or on the boundary."""
         return (s.real >= self.left) & (s.real <= self.right) & (s.imag >= self.bottom) & (s.imag <= self.top)
 
-    def widened(self, by: float) -> "Box":
+    def widened(self, by: float) -> "Rectangle":
         """The same box with each side moved outwards."""
-        return Box(self.left - by, self.right + by, self.bottom - by, self.top + by)
+        return Rectangle(self.left - by, self.right + by, self.bottom - by, self.top + by)
 
-    def scaled(self, factor: float) -> "Box":
+    def scaled(self, factor: float) -> "Rectangle":
         """The box of s times a positive factor."""
-        return Box(*(side * factor for side in self))
+        return Rectangle(*(side * factor for side in self))
 
 
-def zeros_inside(f: ExponentialPolynomial, box: Box) -> int:
+def zeros_inside(f: ExponentialPolynomial, box: Rectangle) -> int:
     """The number of zeros of f inside the box, with multiplicity. Raises BoundaryError for one on its boundary.
 
-    >>> zeros_inside(ExponentialPolynomial.of([1.0, 0.0, 1.0]), Box(-1, 1, -2, 2))
+    >>> zeros_inside(ExponentialPolynomial.of([1.0, 0.0, 1.0]), Rectangle(-1, 1, -2, 2))
     2
     """
     low, high = complex(box.left, box.bottom), complex(box.right, box.top)
@@ -83,7 +83,9 @@ def zeros_right(f: ExponentialPolynomial, reach: float) -> int:
 
 def zeros_around(f: ExponentialPolynomial, centre: complex, radius: float) -> int:
     """The number of zeros of f in the square of half the side `radius` around a point."""
-    return zeros_inside(f, Box(centre.real - radius, centre.real + radius, centre.imag - radius, centre.imag + radius))
+    return zeros_inside(
+        f, Rectangle(centre.real - radius, centre.real + radius, centre.imag - radius, centre.imag + radius)
+    )
 
 
 def _turned(f: ExponentialPolynomial, a: np.ndarray, b: np.ndarray) -> float:

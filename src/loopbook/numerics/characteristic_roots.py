@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from loopbook.numerics.argument_principle import BoundaryError, Box, zeros_around, zeros_inside
+from loopbook.numerics.argument_principle import BoundaryError, Rectangle, zeros_around, zeros_inside
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial, characteristic_time_of
 from loopbook.numerics.multiple_roots import put_together
 from loopbook.numerics.right_half_plane import RootsError, chain, half_plane
@@ -25,6 +25,7 @@ SAME, CLUSTER, NOTHING = 1e-6, 1e-3, 1e-13
 CONVERGED = 1e-12
 REACH = 16.0
 STEPS = 60
+SETTLED = 10  # steps after which a start that led anywhere is close
 MOST_STRIPS = 4000
 SIX = 6
 
@@ -36,7 +37,9 @@ class Zeros(NamedTuple):
     multiplicity: np.ndarray
 
 
-def zeros_in(f: ExponentialPolynomial, right_of: float | None = None, box: Box | None = None) -> tuple[Zeros, Box]:
+def zeros_in(
+    f: ExponentialPolynomial, right_of: float | None = None, box: Rectangle | None = None
+) -> tuple[Zeros, Rectangle]:
     """The zeros of f and the box that holds them.
 
     right_of [1/s]: those with Re s >= right_of (the box then has infinite sides); box [1/s]: those in it; neither: the
@@ -54,7 +57,7 @@ def zeros_in(f: ExponentialPolynomial, right_of: float | None = None, box: Box |
     inside = f.in_units(time)
     inside = inside * (1 / max(abs(c) for _, p in inside.terms for c in p))
     if not inside.degree + (len(inside.terms) > 1):
-        return Zeros(np.zeros(0, complex), np.zeros(0, int)), box or Box(-math.inf, math.inf, -math.inf, math.inf)
+        return Zeros(np.zeros(0, complex), np.zeros(0, int)), box or Rectangle(-math.inf, math.inf, -math.inf, math.inf)
     if len(inside.terms) == 1:
         return _rational(inside, right_of, box, time)
     if len(inside.terms[0][1]) - 1 < inside.degree:
@@ -69,31 +72,35 @@ def zeros_in(f: ExponentialPolynomial, right_of: float | None = None, box: Box |
     found = _all_in(inside, spectrum, region)
     searched = box or region.scaled(1 / time)
     if right_of is not None:
-        searched = Box(right_of, math.inf, -math.inf, math.inf)
+        searched = Rectangle(right_of, math.inf, -math.inf, math.inf)
     return Zeros(found.values / time, found.multiplicity), searched
 
 
-def _rational(f: ExponentialPolynomial, right_of: float | None, box: Box | None, time: float) -> tuple[Zeros, Box]:
+def _rational(
+    f: ExponentialPolynomial, right_of: float | None, box: Rectangle | None, time: float
+) -> tuple[Zeros, Rectangle]:
     """Of a polynomial: what of its roots lies in the region; those that rounding split are one."""
-    region = box or Box(-math.inf if right_of is None else right_of, math.inf, -math.inf, math.inf)
+    region = box or Rectangle(-math.inf if right_of is None else right_of, math.inf, -math.inf, math.inf)
     row = f.terms[0][1]
     values, multiplicity = np.unique(put_together(row, np.roots(row)), return_counts=True)
     kept = region.holds(values / time)
     return _sorted(values[kept].astype(complex) / time, multiplicity[kept]), region
 
 
-def _advanced(f: ExponentialPolynomial, box: Box | None) -> tuple[Zeros, Box]:
+def _advanced(f: ExponentialPolynomial, box: Rectangle | None) -> tuple[Zeros, Rectangle]:
     """In a box, by the mirror image f(-s) exp(-d s), whose first term is the last one of f."""
     if box is None or len(f.terms[-1][1]) - 1 < f.degree:
         raise RootsError(
             "a delayed term has a higher power of s than the one without delay: there are roots with real parts beyond "
             "all bounds (of a loop: one that cannot be built); ask for those in a box"
         )
-    found, region = zeros_in(f.mirrored(), box=Box(-box.right, -box.left, -box.top, -box.bottom))
-    return _sorted(-found.values, found.multiplicity), Box(-region.right, -region.left, -region.top, -region.bottom)
+    found, region = zeros_in(f.mirrored(), box=Rectangle(-box.right, -box.left, -box.top, -box.bottom))
+    return _sorted(-found.values, found.multiplicity), Rectangle(
+        -region.right, -region.left, -region.top, -region.bottom
+    )
 
 
-def _of_the_rightmost(f: ExponentialPolynomial, spectrum: DelaySpectrum, unit: float) -> tuple[Box, float | None]:
+def _of_the_rightmost(f: ExponentialPolynomial, spectrum: DelaySpectrum, unit: float) -> tuple[Rectangle, float | None]:
     """Half a plane with six zeros in it, or all where there are no more, as a box and its left side [1/s]."""
     near = _newton(f, spectrum.near(0, 48))
     real = np.sort(_distinct(near, _width(f)).real)[::-1]
@@ -101,7 +108,7 @@ def _of_the_rightmost(f: ExponentialPolynomial, spectrum: DelaySpectrum, unit: f
     real = real[real > line + 1e-6]
     if not real.size:
         pace = math.pi / max(f.delays)
-        return Box(line - pace, line + pace, -SIX * pace, SIX * pace), None
+        return Rectangle(line - pace, line + pace, -SIX * pace, SIX * pace), None
     steps = -np.diff(real[: 2 * SIX])
     after = [i for i in range(min(SIX, len(real)) - 1, len(steps)) if steps[i] > SAME]
     last = after[0] if after else len(real) - 1
@@ -115,7 +122,7 @@ def _width(f: ExponentialPolynomial) -> float:
     return 1.0 / max(1.0, *f.delays)
 
 
-def _all_in(f: ExponentialPolynomial, spectrum: DelaySpectrum, region: Box) -> Zeros:
+def _all_in(f: ExponentialPolynomial, spectrum: DelaySpectrum, region: Rectangle) -> Zeros:
     """The zeros in the region, as many as the argument principle counts."""
     width = _width(f)
     wide = region.widened(WIDER * max(width, *map(abs, region)))
@@ -138,7 +145,7 @@ def _all_in(f: ExponentialPolynomial, spectrum: DelaySpectrum, region: Box) -> Z
     raise RootsError(f"{count} roots lie in the region, {len(found)} of them could be told: ask for a smaller region")
 
 
-def _search(f: ExponentialPolynomial, spectrum: DelaySpectrum, box: Box, count: int, points: int) -> np.ndarray:
+def _search(f: ExponentialPolynomial, spectrum: DelaySpectrum, box: Rectangle, count: int, points: int) -> np.ndarray:
     """Distinct zeros in the box, strip after strip from the real axis upwards, until they are as many as counted."""
     step = REACH * points / 32 / float(spectrum.delays.max())
     nearest = min(max(0.0, box.bottom), box.top) if box.bottom * box.top > 0 else 0.0
@@ -161,14 +168,15 @@ def _newton(f: ExponentialPolynomial, s: np.ndarray) -> np.ndarray:
     longest = max(f.delays)
     done = np.zeros(0, complex)
     with np.errstate(all="ignore"):
-        for _ in range(STEPS):
+        for step in range(STEPS):
             change = f(s) / slope(s)
             change = np.where(np.abs(change) > 2 / (longest + 1e-3), 2 / (longest + 1e-3) * np.sign(change), change)
             after = s - change
             still = np.isfinite(after)
             small = still & (np.abs(change) <= CONVERGED * np.maximum(np.abs(after), 1e-6 / (longest + 1)))
             done = np.append(done, after[small])
-            s = after[still & ~small]
+            astray = np.abs(change) > 0.5 / (longest + 1e-3) if step == SETTLED else small
+            s = after[still & ~small & ~astray]
             if not s.size:
                 break
         flat = s[np.abs(f(s) / slope(s)) < 1e-7 * np.maximum(np.abs(s), 1.0 / (longest + 1))]  # multiple zeros

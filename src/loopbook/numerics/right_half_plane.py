@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.argument_principle import BoundaryError, Box, zeros_right
+from loopbook.numerics.argument_principle import BoundaryError, Rectangle, zeros_right
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial, characteristic_time_of
 
 FARTHEST = 1e4
@@ -53,7 +53,7 @@ def zeros_on_the_right(f: ExponentialPolynomial) -> float:
         raise BoundaryError(error.at / time) from None
 
 
-def half_plane(f: ExponentialPolynomial, right_of: float, unit: float = 1.0, limit: float = FARTHEST) -> Box:
+def half_plane(f: ExponentialPolynomial, right_of: float, unit: float = 1.0, limit: float = FARTHEST) -> Rectangle:
     """The box that holds all zeros with Re s >= right_of. unit [s]: of time, for messages. limit: how many dead times'
     turns it may be high. Raises RootsError.
     """
@@ -77,7 +77,7 @@ def half_plane(f: ExponentialPolynomial, right_of: float, unit: float = 1.0, lim
             f"right of {right_of / unit:.6g} there may be some {reach * f.delays[-1] / math.pi:.2g} roots, up to "
             f"{reach / unit:.4g} rad/s: ask for those farther right, or in a box"
         )
-    return Box(right_of, max(reach, right_of) + 1e-3 * reach + 1e-9, -1.001 * reach - 1e-9, 1.001 * reach + 1e-9)
+    return Rectangle(right_of, max(reach, right_of) + 1e-3 * reach + 1e-9, -1.001 * reach - 1e-9, 1.001 * reach + 1e-9)
 
 
 def _largest_root(lead: float, rest: np.ndarray) -> float:

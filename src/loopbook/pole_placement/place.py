@@ -32,6 +32,8 @@ def place(
     >>> place(sample(Process([1], [5, 1]), 1.0), 0.5).regulator.is_stable
     True
     """
+    if not (isinstance(integrators, int | np.integer) and integrators >= 0):
+        raise PlacementError(f"integrators = {integrators!r}: a whole number, 0 or more, is expected")
     if isinstance(process, Process):
         return place_continuous(process, poles, observer=observer, integrators=integrators)
     B, A = np.asarray(process.num), np.asarray(process.den)

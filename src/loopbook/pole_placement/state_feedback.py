@@ -10,6 +10,7 @@ often as there are inputs.
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -45,13 +46,11 @@ def state_feedback(A: Any, B: Any, poles: Sequence[Any]) -> Any:
         raise PlacementError(f"{len(wanted)} poles for {n} states: as many of both are needed")
     if b.shape[1] > 1:
         return _robust(a, b, wanted)
-    letters = any(getattr(x, "free_symbols", None) for x in (*a.flat, *b.flat, *wanted))
-    if letters or any(hasattr(x, "is_number") for x in (*a.flat, *b.flat, *wanted)):
+    entries = [*a.flat, *b.flat, *wanted]
+    if any(hasattr(x, "is_number") for x in entries):
         return _in_letters(a, b, wanted)
-    floats = any(isinstance(x, float | complex | np.inexact) for x in (*a.flat, *b.flat, *wanted))
-    if floats:
-        numbers = [np.array([[float(_fraction(x)) for x in row] for row in m]).reshape(m.shape) for m in (a, b)]
-        return _hessenberg(numbers[0], numbers[1], wanted)
+    if any(isinstance(x, float | complex | np.inexact) for x in entries):
+        return _hessenberg(_floats(a), _floats(b), wanted)
     of_A, of_B = ([[_fraction(x) for x in row] for row in m] for m in (a, b))
     return tuple(_ackermann(of_A, of_B, _characteristic(wanted)))
 
@@ -138,6 +137,12 @@ def _fraction(value: Any) -> Fraction:
         raise PlacementError(f"{value!r} is no finite real number: A, B and C hold such") from None
 
 
+def _floats(matrix: np.ndarray) -> np.ndarray:
+    return np.array([x if type(x) is float and isfinite(x) else float(_fraction(x)) for x in matrix.flat]).reshape(
+        matrix.shape
+    )
+
+
 def _characteristic(poles: list[Any]) -> list[Fraction]:
     """The descending coefficients of prod(s - p) for real poles."""
     row = [Fraction(1)]
@@ -156,7 +161,7 @@ def _hessenberg(A: np.ndarray, B: np.ndarray, poles: list[Any]) -> np.ndarray:
     length = float(np.linalg.norm(mirror))
     mirror[0] += np.copysign(length, mirror[0])
     first = np.eye(n) - 2 * np.outer(mirror, mirror) / (mirror @ mirror) if length else np.eye(n)
-    H, Q = hessenberg(first @ A @ first, calc_q=True)
+    H, Q = hessenberg(first @ A @ first, calc_q=True, check_finite=False)
     beta = float((first @ B[:, 0])[0])
     below = np.append(beta, np.diag(H, -1))
     size = max(float(np.abs(A).max(initial=0.0)), 0.0)

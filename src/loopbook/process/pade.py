@@ -7,9 +7,10 @@ and D(x) the same with m and n exchanged, of -x.
 """
 
 from dataclasses import dataclass
-from fractions import Fraction
 from math import comb, perm
 from typing import Any
+
+import numpy as np
 
 from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.process.approximation import Approximates
@@ -53,12 +54,12 @@ def pade(process: Any, order: int | tuple[int, int]) -> ApproximateProcess:
     exact = process if isinstance(process, Process) else _dead_time(process)
     if not exact.delay:
         raise ProcessError("there is no dead time to approximate")
-    L = Fraction(exact.delay)
-    above = [float(Fraction(comb(m, k), perm(m + n, k)) * (-L) ** k) for k in range(m, -1, -1)]
-    below = [float(Fraction(comb(n, k), perm(m + n, k)) * L**k) for k in range(n, -1, -1)]
-    rational = exact.rational * Process(above, below)
+    p, q = exact.delay.as_integer_ratio()
+    above = [comb(m, k) * (-p) ** k / (perm(m + n, k) * q**k) for k in range(m, -1, -1)]
+    below = [comb(n, k) * p**k / (perm(m + n, k) * q**k) for k in range(n, -1, -1)]
+    num, den = (tuple(np.convolve(p, q).tolist()) for p, q in ((exact.num, above), (exact.den, below)))
     name = f"Padé of order {n}" if m == n else f"Padé of order ({m}, {n})"
-    return ApproximateProcess(rational.num, rational.den, 0.0, name, exact)
+    return ApproximateProcess(num, den, 0.0, name, exact)
 
 
 def _dead_time(value: Any) -> Process:

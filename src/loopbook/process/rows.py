@@ -8,7 +8,7 @@ import numpy as np
 
 from derivations.errors import LoopbookError
 from loopbook.numerics.multiple_roots import put_together
-from loopbook.numerics.real_numbers import plain_number
+from loopbook.numerics.real_numbers import in_a_sentence, plain_number
 from loopbook.numerics.units import characteristic_time, in_units
 
 
@@ -25,7 +25,7 @@ def checked_coefficients(values: Sequence[float], name: str) -> tuple[float, ...
     if not (type(values) is tuple and values and all(type(c) is float for c in values)):
         values = _row(values, name)
     if not all(map(math.isfinite, values)):
-        raise ProcessError(f"{name} = {values!r}: the coefficients must be finite")
+        raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be finite")
     row = list(values)
     while len(row) > 1 and not row[0]:
         del row[0]
@@ -37,11 +37,13 @@ def _row(values: Any, name: str) -> list[float]:
     array = np.atleast_1d(np.asarray(values, dtype=object))
     row = list(array)
     if not row or array.ndim > 1 or isinstance(row[0], list | tuple):
-        raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
+        raise ProcessError(
+            f"{name} = {in_a_sentence(values)}: a row of coefficients in descending powers of s is expected"
+        )
     try:
         return [float(plain_number(c)) for c in row]
     except (TypeError, OverflowError):
-        raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers") from None
+        raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be real numbers") from None
 
 
 def roots_of(p: Sequence[float]) -> np.ndarray:
@@ -76,8 +78,13 @@ def over_one_denominator(first: Sequence[float], second: Sequence[float]) -> tup
 
 def _quotient(p: np.ndarray, q: np.ndarray) -> np.ndarray | None:
     """p/q where q divides p within the rounding of its coefficients, else None."""
-    quotient, _ = np.polydiv(p, q)
-    quotient = np.atleast_1d(quotient)
-    back = np.convolve(quotient, q)
-    width = np.convolve(np.abs(quotient), np.abs(q))
-    return quotient if len(back) == len(p) and (np.abs(back - p) <= 4 * np.finfo(float).eps * width).all() else None
+    rest, divisor, steps = p.tolist(), q.tolist(), len(p) - len(q) + 1
+    if steps < 1:
+        return None
+    for i in range(steps):  # the quotient takes the place of what it explains
+        rest[i] /= divisor[0]
+        for j, c in enumerate(divisor[1:], i + 1):
+            rest[j] -= rest[i] * c
+    quotient = np.array(rest[:steps])
+    width = np.convolve(np.abs(quotient), np.abs(q))[steps:]
+    return quotient if (np.abs(rest[steps:]) <= 4 * np.finfo(float).eps * width).all() else None

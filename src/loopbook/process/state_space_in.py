@@ -7,7 +7,7 @@ coefficients of rounding. Larger systems of floats are converted in double preci
 """
 
 import math
-from fractions import Fraction
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -51,6 +51,8 @@ def ss(
 
 def _matrix(values: Any, name: str) -> np.ndarray:
     """The entries as floats where they are floats, else as they are, in an array of objects."""
+    if isinstance(values, np.ndarray) and values.dtype.kind == "f" and values.size and np.isfinite(values).all():
+        return np.atleast_2d(values.astype(float)).astype(object)
     array = np.atleast_2d(np.asarray(values, dtype=object))
     array = array if array.size else np.empty((0, 0), dtype=object)
     found = np.empty(array.shape, dtype=object)
@@ -65,33 +67,29 @@ def _matrix(values: Any, name: str) -> np.ndarray:
 
 
 def _exact(A: np.ndarray, B: np.ndarray, C: np.ndarray, D: Any) -> tuple[list[float], list[float]]:
-    """In whole numbers: the matrices over one denominator each."""
+    """In whole numbers: the matrices over one denominator each; every coefficient is rounded once."""
     (a, q), (b, r), (c, t) = map(_over_one, (A, B, C))
-    n, identity = len(A), _identity(len(A))
-    adjugate, den, num = identity, [1], []
+    (over, under), n = D.as_integer_ratio(), len(A)
+    adjugate = [[int(i == j) for j in range(n)] for i in range(n)]
+    den, num = [1], [0]
     for k in range(1, n + 1):
-        num.append(int(c @ adjugate @ b))
-        product = a @ adjugate
-        den.append(-sum(product.diagonal()) // k)
-        adjugate = product + den[k] * identity
-    below = [Fraction(x, q**k) for k, x in enumerate(den)]
-    above = [Fraction(0), *(Fraction(x, r * t * q**k) for k, x in enumerate(num))]
-    return [float(x + Fraction(D) * y) for x, y in zip(above, below, strict=True)], [float(x) for x in below]
+        through = [sum(map(mul, row, b)) for row in adjugate]
+        num.append(sum(map(mul, c, through)))
+        columns = list(zip(*adjugate, strict=True))
+        adjugate = [[sum(map(mul, a[i * n : i * n + n], column)) for column in columns] for i in range(n)]
+        den.append(-sum(adjugate[i][i] for i in range(n)) // k)
+        for i in range(n):
+            adjugate[i][i] += den[k]
+    s = r * t  # num_k of the strictly proper part stands over s q^(k - 1), den_k over q^k
+    above = [(x * q * under + over * y * s) / (s * under * q**k) for k, (x, y) in enumerate(zip(num, den, strict=True))]
+    return above, [y / q**k for k, y in enumerate(den)]
 
 
-def _over_one(matrix: np.ndarray) -> tuple[np.ndarray, int]:
-    """Whole numbers and the number that divides all of them."""
-    exact = [Fraction(x) for x in matrix.flat]
-    common = math.lcm(*(x.denominator for x in exact))
-    whole = np.empty(len(exact), dtype=object)
-    whole[:] = [int(x * common) for x in exact]
-    return whole.reshape(matrix.shape), common
-
-
-def _identity(n: int) -> np.ndarray:
-    found = np.zeros((n, n), dtype=object)
-    found[np.diag_indices(n)] = 1
-    return found
+def _over_one(matrix: np.ndarray) -> tuple[list[int], int]:
+    """Whole numbers, row by row, and the number that divides all of them."""
+    ratios = [x.as_integer_ratio() for x in matrix.flat]
+    common = math.lcm(*(below for _, below in ratios))
+    return [above * (common // below) for above, below in ratios], common
 
 
 def _rounded(A: np.ndarray, B: np.ndarray, C: np.ndarray, D: Any) -> tuple[list[float], list[float]]:

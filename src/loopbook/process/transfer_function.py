@@ -16,7 +16,7 @@ import numpy as np
 
 from loopbook.numerics import horner
 from loopbook.numerics.exponential_polynomial import SAME_DELAY, ExponentialPolynomial, same_delay
-from loopbook.numerics.real_numbers import plain_number, positive, real
+from loopbook.numerics.real_numbers import in_a_sentence, plain_number, positive, real
 from loopbook.numerics.several_delays import step_response
 from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step

@@ -86,3 +86,8 @@ def test_what_is_out_of_range_is_said(settings, says):
         ParallelSettings(**{"h": 0.1, **settings})
     with pytest.raises(SettingError, match="no such setting"):
         ParallelSettings(P=1.0, h=0.1).changed(K=2.0)
+
+
+def test_ints_beside_fractions_stay_exact():
+    settings = ParallelSettings(P=1, I=F(1, 3), h=1, u_high=1)
+    assert all(isinstance(u, F) for u in Pid(settings).run([0, 0, 0], F(1, 10)))

@@ -8,7 +8,7 @@ from scipy.special import lambertw
 from loopbook.controllers.pid_forms import PidStandard
 from loopbook.loop.continuous import Loop
 from loopbook.loop.roots import poles, zeros
-from loopbook.numerics.argument_principle import Box, zeros_inside
+from loopbook.numerics.argument_principle import Rectangle, zeros_inside
 from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.right_half_plane import RootsError
@@ -124,15 +124,15 @@ def test_a_neutral_equation_has_a_chain():
     assert len(zeros_in(neutral, right_of=-0.68)[0].values) == 0
     with pytest.raises(RootsError, match="ask for those farther right"):
         zeros_in(neutral, right_of=-0.69314)
-    box = Box(-0.8, 0.0, -20.0, 20.0)
+    box = Rectangle(-0.8, 0.0, -20.0, 20.0)
     assert len(zeros_in(neutral, box=box)[0].values) == zeros_inside(neutral, box) == 7
 
 
 def test_zeros_of_a_sum_that_go_to_the_right():
     """exp(-2 s) (s + 1) + 1: mirrored, an equation of a loop."""
     f = of([1.0]) + of([1.0, 1.0], 2.0)
-    found, _ = zeros_in(f, box=Box(-3.0, 3.0, -10.0, 10.0))
-    assert len(found.values) == zeros_inside(f, Box(-3.0, 3.0, -10.0, 10.0)) > 0
+    found, _ = zeros_in(f, box=Rectangle(-3.0, 3.0, -10.0, 10.0))
+    assert len(found.values) == zeros_inside(f, Rectangle(-3.0, 3.0, -10.0, 10.0)) > 0
     assert np.abs(f(found.values)).max() < 1e-10
     with pytest.raises(RootsError, match="beyond all bounds"):
         zeros_in(f, right_of=-1.0)
