@@ -28,9 +28,9 @@ class ParallelSettings:
     [0.0, 1.0, 3.0, 5.0, 5.0, 5.0, 4.0]
     """
 
-    P: Any = 0.0
-    I: Any = 0.0
-    D: Any = 0.0
+    P: Any = 0
+    I: Any = 0
+    D: Any = 0
     Tf: Any = 0
     b: Any = 1
     c: Any = 0

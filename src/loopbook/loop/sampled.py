@@ -21,6 +21,7 @@ from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
 from loopbook.plots.frequency import Curve
 from loopbook.plots.stairs import stairs
+from loopbook.process.near_one import zeros_near_one
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
