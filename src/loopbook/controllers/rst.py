@@ -59,12 +59,15 @@ def zeros_of(p: Polynomial) -> np.ndarray:
 
 
 def with_zeros(zeros: Sequence[complex]) -> np.ndarray:
-    """The polynomial (1 - z1 z^-1)(1 - z2 z^-1)... with real coefficients.
+    """The polynomial (1 - z1 z^-1)(1 - z2 z^-1)... with real coefficients; PlacementError where they are not real.
 
     >>> with_zeros([0.5, 0.5])
     array([ 1.  , -1.  ,  0.25])
     """
-    return np.atleast_1d(np.real(np.poly(np.asarray(zeros, dtype=complex))))
+    row = np.atleast_1d(np.poly(np.asarray(zeros, dtype=complex)))
+    if np.abs(row.imag).max() > NEAR * np.abs(row).max():
+        raise PlacementError(f"{list(zeros)} are not real or in conjugate pairs")
+    return row.real
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.step_response import StepResponse
 from loopbook.loop.without_dead_time import time_to_settle
 from loopbook.numerics.characteristic_roots import zeros_in
+from loopbook.numerics.real_numbers import real_array
 from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.process.algebra import TransferAlgebra
@@ -20,6 +21,7 @@ from loopbook.response.step_metrics import BAND, StepMetrics, StepMetricsError, 
 
 POINTS = 1000
 LONG = 25.0  # time constants after which nothing is left
+FINER = 20.0  # rise times that are looked at more closely
 SETTLED = 1e-6  # what is left of the slowest mode of a sampled loop
 
 
@@ -32,8 +34,8 @@ def step_info(
     system: a transfer function or a loop of any kind (its step response; of a loop that to the reference), a
     `StepResponse`, a `Simulation`, or samples of y at the times t [s]. convention: "exact" (continuous response, true
     final value) or "sampled" (MATLAB's stepinfo; of a continuous response at t, by default 1,000 intervals up to twice
-    the exact settling time); samples are always "sampled". final: the final value in that convention, by default the
-    true one of a system and the last one of samples. band: of the settling time, as a part of the step.
+    the exact settling time and 1,000 while it rises); samples are always "sampled". final: the
+    final value in that convention, by default the true one of a system and the last one of samples. band: of the settling time, as a part of the step.
     Raises StepMetricsError where there is no such response or it does not settle.
 
     >>> info = step_info(Process.fopdt(2, 10, 3))
@@ -50,9 +52,15 @@ def step_info(
     found = exact_metrics(y, value, y.end, band=band)
     if convention == "exact":
         return found
-    until = min(2 * max(found.settling, found.peak_time), y.end)
-    times = np.linspace(0.0, until, POINTS + 1) if t is None else np.asarray(t, dtype=float)
-    return sampled_metrics(y(times), times, value if final is None else final, band)
+    times = _grid(found, y.end) if t is None else real_array(t, "t", StepMetricsError)
+    return sampled_metrics(y(times), times, value if final is None else final, band, rest=0.0)
+
+
+def _grid(found: StepMetrics, end: float) -> np.ndarray:
+    """Times on which nothing of the response is missed: so long as it moves, and finer while it rises."""
+    until = min(2 * max(found.settling, found.peak_time), end)
+    rising = min(FINER * max(found.rise, min(found.peak_time, found.settling) / FINER), until)
+    return np.unique(np.concatenate([np.linspace(0.0, last, POINTS + 1) for last in (rising, until)]))
 
 
 def _response(system: Any) -> tuple[Signal, float]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from loopbook.controllers.regulator import Regulator
 from loopbook.controllers.rst import PlacementError
+from loopbook.numerics.real_numbers import complex_number
 from loopbook.plots.short_repr import ShortRepr
 from loopbook.pole_placement.polynomial_equation import PolynomialEquationError, PolynomialSolution, diophantine
 from loopbook.process.transfer_function import Process
@@ -47,13 +48,14 @@ def place_continuous(
     fixed = np.array([1.0] + [0.0] * integrators)
     n = process.order + integrators
     needed = n + process.order - 1 + (not process.relative_degree)
-    seen = list(poles) if isinstance(poles, Sequence | np.ndarray) else [poles] * max(needed - len(observer), 1)
-    wanted = [complex(p) for p in (*seen, *observer)]
+    hidden = [complex_number(p, "pole", PlacementError) for p in listed(observer, 1)]
+    seen = [complex_number(p, "pole", PlacementError) for p in listed(poles, max(needed - len(hidden), 1))]
+    wanted = [*seen, *hidden]
     if len(wanted) < needed:
         raise PlacementError(f"{len(wanted)} poles are given; a regulator that can be built needs {needed} or more")
     if any(not p.real < 0 for p in wanted):
         raise PlacementError(f"the poles {[p for p in wanted if not p.real < 0]} do not lie on the left: not stable")
-    P, seen_by_r, A_o = (_polynomial(r) for r in (wanted, seen, observer))
+    P, seen_by_r, A_o = (_polynomial(r) for r in (wanted, seen, hidden))
     if not process.num[-1]:
         raise PlacementError("the process blocks constant inputs (B(0) = 0): no T gives the loop static gain one")
     try:
@@ -65,6 +67,13 @@ def place_continuous(
     lead = float(R[0])
     rows = ((gain * A_o / lead), np.asarray(found.Y, dtype=float) / lead, R / lead)
     return ContinuousPlacementResult(Regulator(*(tuple(row.tolist()) for row in rows)), found)
+
+
+def listed(poles: Any, count: int) -> list[Any]:
+    """The poles as a list: those of a row, or one number `count` times."""
+    if isinstance(poles, np.ndarray):
+        poles = poles.tolist()
+    return list(poles) if isinstance(poles, Sequence) else [poles] * count
 
 
 def _polynomial(roots: Sequence[Any]) -> np.ndarray:

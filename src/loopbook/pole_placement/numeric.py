@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from loopbook.controllers.rst import NEAR, PlacementError, Polynomial, Rst, _row, with_zeros, zeros_of
-from loopbook.numerics.real_numbers import positive
+from loopbook.numerics.real_numbers import positive, whole
 from loopbook.plots.short_repr import ShortRepr
 
 CONTAINED = 1e-9
@@ -68,8 +68,7 @@ def place_numerically(
     """
     A, B, P, observer = _row(A, "A"), _row(B, "B"), _row(P, "P"), _row(observer, "observer")
     h = positive(h, "h", PlacementError, " s")
-    if not (isinstance(integrators, int | np.integer) and integrators >= 0):
-        raise PlacementError(f"integrators = {integrators!r}: a whole number, 0 or more, is expected")
+    integrators = whole(integrators, "integrators", PlacementError)
     if A[0] == 0:
         raise PlacementError(f"A = {A.tolist()} must have a term without delay")
     A, B = A / A[0], B / A[0]

@@ -8,7 +8,8 @@ import numpy as np
 from derivations.algebra.delay_polynomials import Z, polynomial
 from derivations.pole_placement import diophantine
 from loopbook.controllers.rst import PlacementError, with_zeros
-from loopbook.pole_placement.continuous import place_continuous
+from loopbook.numerics.real_numbers import complex_number, whole
+from loopbook.pole_placement.continuous import listed, place_continuous
 from loopbook.pole_placement.numeric import Placement
 from loopbook.pole_placement.numeric import place_numerically as place_in_numbers
 from loopbook.process.transfer_function import Process
@@ -32,19 +33,19 @@ def place(
     >>> place(sample(Process([1], [5, 1]), 1.0), 0.5).regulator.is_stable
     True
     """
-    if not (isinstance(integrators, int | np.integer) and integrators >= 0):
-        raise PlacementError(f"integrators = {integrators!r}: a whole number, 0 or more, is expected")
+    integrators = whole(integrators, "integrators", PlacementError)
     if isinstance(process, Process):
         return place_continuous(process, poles, observer=observer, integrators=integrators)
     B, A = np.asarray(process.num), np.asarray(process.den)
-    wanted = list(poles) if isinstance(poles, Sequence | np.ndarray) else [poles] * (len(A) - 1 + integrators)
+    wanted = listed(poles, len(A) - 1 + integrators)
     if symbols:
-        return _in_letters(process, [*wanted, *observer], integrators)
-    outside = [pole for pole in [*wanted, *observer] if not abs(complex(pole)) < 1]
+        return _in_letters(process, [*wanted, *listed(observer, 1)], integrators)
+    wanted, hidden = ([complex_number(p, "pole", PlacementError) for p in row] for row in (wanted, listed(observer, 1)))
+    outside = [pole for pole in [*wanted, *hidden] if not abs(pole) < 1]
     if outside:
         raise PlacementError(f"the poles {outside} do not lie inside the unit circle: the loop would not be stable")
     found: Placement = place_in_numbers(
-        B, A, with_zeros(wanted), process.h, observer=with_zeros(observer), integrators=integrators
+        B, A, with_zeros(wanted), process.h, observer=with_zeros(hidden), integrators=integrators
     )
     return found
 

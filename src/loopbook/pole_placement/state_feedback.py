@@ -17,7 +17,7 @@ import numpy as np
 
 from loopbook.controllers.regulator import Regulator
 from loopbook.controllers.rst import PlacementError, Rst
-from loopbook.numerics.real_numbers import plain_number
+from loopbook.numerics.real_numbers import complex_number, plain_number
 from loopbook.process.state_space_in import ss
 from loopbook.process.transfer_function import Process
 
@@ -41,7 +41,7 @@ def state_feedback(A: Any, B: Any, poles: Sequence[Any]) -> Any:
     n = len(a)
     if a.shape != (n, n) or len(b) != n:
         raise PlacementError(f"A {a.shape} and B {b.shape}: a square A and a row of B for each state are expected")
-    wanted = list(np.atleast_1d(np.asarray(poles, dtype=object)))
+    wanted = [_pole(p) for p in np.atleast_1d(np.asarray(poles, dtype=object))]
     if len(wanted) != n:
         raise PlacementError(f"{len(wanted)} poles for {n} states: as many of both are needed")
     if b.shape[1] > 1:
@@ -128,6 +128,14 @@ def _of_process(process: Process) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     A = np.eye(n, k=-1)
     A[0] = -a[1:]
     return A, np.eye(n)[:, 0], np.pad(c, (n - len(c), 0))
+
+
+def _pole(value: Any) -> Any:
+    """As it is where SymPy made it or it is real; a complex number as Python's."""
+    if hasattr(value, "is_number"):
+        return value
+    number = complex_number(value, "pole", PlacementError)
+    return number if number.imag or isinstance(value, complex | np.complexfloating) else value
 
 
 def _fraction(value: Any) -> Fraction:

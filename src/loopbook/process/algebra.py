@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
-from loopbook.numerics.real_numbers import plain_number, real
+from loopbook.numerics.real_numbers import plain_number, real, real_array
 from loopbook.numerics.signals import Signal
 from loopbook.process.rows import ProcessError, over_one_denominator
 
@@ -106,7 +106,7 @@ class TransferAlgebra(ABC):
 
     def step(self, times: Any) -> np.ndarray:
         """The response to a unit step of the input at t = 0 from rest, exact to rounding, at any `times` [s]."""
-        times = np.asarray(times, dtype=float)
+        times = real_array(times, "t", ProcessError)
         return self.step_signal(max(float(times.max(initial=0.0)), TINY))(times)
 
     @property

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics import polynomial_text
-from loopbook.numerics.real_numbers import plain_number, positive
+from loopbook.numerics.real_numbers import plain_number, positive, real_array
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
@@ -117,7 +117,7 @@ class DiscreteProcess(Approximates):
         """y(k) to the inputs u(k) from rest; arrays of one length."""
         from scipy.signal import lfilter
 
-        return np.asarray(lfilter(self.num, self.den, np.asarray(u, dtype=float)))
+        return np.asarray(lfilter(self.num, self.den, real_array(u, "u", ProcessError)))
 
     def plot(self, steps: int = SAMPLES) -> Any:
         """The unit step response as a matplotlib figure."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.numerics.real_numbers import plain_number, positive
+from loopbook.numerics.real_numbers import plain_number, positive, whole
 from loopbook.process.approximation import Approximates
 from loopbook.process.rows import ProcessError
 from loopbook.process.transfer_function import Process
@@ -46,7 +46,8 @@ def pade(process: Any, order: int | tuple[int, int]) -> ApproximateProcess:
     2.139
     """
     m, n = order if isinstance(order, tuple | list) else (order, order)
-    if not (isinstance(m, int) and isinstance(n, int) and 0 <= m <= n <= MOST and n > 0):
+    m, n = (whole(degree, "order", ProcessError) for degree in (m, n))
+    if not (0 <= m <= n <= MOST and n > 0):
         raise ProcessError(
             f"order = {order!r}: a whole number from 1 to {MOST}, or (degree above, degree below), the first at "
             "most the second"

@@ -40,3 +40,29 @@ def test_loops_and_sums_of_every_kind():
     assert two.final == 2 and two.settling == pytest.approx(10 * np.log(25 * (np.exp(0.3) + np.exp(0.5))), rel=1e-9)
     with pytest.raises(ValueError, match="not on the left"):
         step_info(Process([1], [10, 0], 3) + 1)
+
+
+def test_samples_see_the_rise_before_a_slow_creep():
+    """At Ti = 1000 s and longer the loop overshoots within a second and creeps for hours; both conventions say so."""
+    for Ti in (1e2, 1e3, 1e5, 1e7):
+        loop = Loop(Process([25], [1, 2, 1]), PidStandard(1, Ti))
+        exact, sampled = step_info(loop), step_info(loop, convention="sampled")
+        assert exact.overshoot == pytest.approx(47.46, abs=0.3) and sampled.overshoot == pytest.approx(
+            exact.overshoot, abs=0.05
+        )
+        assert sampled.rise == pytest.approx(exact.rise, rel=1e-3)
+        assert sampled.settling == pytest.approx(exact.settling, rel=1e-5)
+
+
+@pytest.mark.parametrize("num, den", [([3, 1], [2, 1]), ([1.3, 1], [1, 1]), ([1.9, 1], [1, 1])])
+def test_samples_of_a_system_that_jumps_start_from_rest(num, den):
+    exact, sampled = step_info(Process(num, den)), step_info(Process(num, den), convention="sampled")
+    for name in ("rise", "settling", "overshoot", "undershoot", "peak"):
+        assert getattr(sampled, name) == pytest.approx(getattr(exact, name), rel=1e-4, abs=1e-9), name
+
+
+@pytest.mark.parametrize("delay", [0.0, 3.0])
+def test_a_gain_alone_is_there_at_once(delay):
+    found = step_info(Process([2], [1], delay))
+    values = (found.rise, found.settling, found.overshoot, found.peak, found.peak_time)
+    assert values == pytest.approx((0.0, delay, 0.0, 2.0, delay), rel=1e-12)
