@@ -35,7 +35,8 @@ def step_info(
     `StepResponse`, a `Simulation`, or samples of y at the times t [s]. convention: "exact" (continuous response, true
     final value) or "sampled" (MATLAB's stepinfo; of a continuous response at t, by default 1,000 intervals up to twice
     the exact settling time and 1,000 while it rises); samples are always "sampled". final: the
-    final value in that convention, by default the true one of a system and the last one of samples. band: of the settling time, as a part of the step.
+    final value in that convention, by default the true one of a system and the last one of samples. band: of the
+    settling time, as a part of the step.
     Raises StepMetricsError where there is no such response or it does not settle.
 
     >>> info = step_info(Process.fopdt(2, 10, 3))
