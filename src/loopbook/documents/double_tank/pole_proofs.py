@@ -139,6 +139,12 @@ def ratios(design: PolePlacement, coefficients: Mapping[Any, Fraction]) -> dict[
     return found
 
 
+def rounding(found: Mapping[str, Any], document: Document) -> int:
+    """How many of the numbers, by id, round to what the document prints."""
+    printed = document.printed.values
+    return sum(rounds_to(value, printed[id].printed) for id, value in found.items() if id in printed)
+
+
 def typed_in(document: Document) -> dict[str, dict[str, Fraction]]:
     """What the long expressions of the appendix, typed in as printed, give at the poles of the table, by name and q."""
     text = document.given("Appendix, d_iterativ")
