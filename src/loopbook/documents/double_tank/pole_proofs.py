@@ -151,7 +151,8 @@ def typed_in(document: Document) -> dict[str, dict[str, Fraction]]:
     polynomials = {name: long_fractions.read_back(text, f"d_iterativ-{name.replace('_', '')}") for name in REGULATOR}
     poles = ("0.3", "0.5", "0.7")
     return {
-        name: {q: long_fractions.at(polynomial, Fraction(q)) for q in poles} for name, polynomial in polynomials.items()
+        name: {q: long_fractions.value_at(polynomial, Fraction(q)) for q in poles}
+        for name, polynomial in polynomials.items()
     }
 
 
