@@ -145,18 +145,21 @@ class Equation:
         }
 
 
-def equation(expression: Any, label: str = "", document: str = "") -> Equation:
-    """Show a SymPy expression, an equality or LaTeX text as a displayed equation.
+def equation(expression: Any, label: str = "", document: str = "", left: str = "") -> Equation:
+    """Show a SymPy expression, an equality or LaTeX text as a displayed equation. left: LaTeX of what an expression is.
 
     >>> import sympy
     >>> equation(sympy.Symbol("T_f") / 2, "4.8", "pid-report").latex
     '\\\\frac{T_{f}}{2}'
+    >>> equation(sympy.Symbol("h") / 2, left="T_f").latex
+    'T_f = \\\\frac{h}{2}'
     """
+    before = f"{left} = " if left else ""
     if isinstance(expression, str):
-        return Equation(expression, label, document)
+        return Equation(before + expression, label, document)
     import sympy
 
-    return Equation(sympy.latex(expression), label, document)
+    return Equation(before + sympy.latex(expression), label, document)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.plots.curves import COLOURS, STYLES
+from loopbook.plots.legend import legend_below
 
 NEAR = 3.0  # how far a Nyquist diagram looks beyond what is near -1
 
@@ -40,7 +41,7 @@ def bode_figure(curves: Mapping[str, Curve], title: str) -> Any:
         (curve,) = curves.values()
         _draw_margins(axes, curve)
     else:
-        axes[0].legend(fontsize="small")
+        legend_below(fig, axes[0])
     axes[0].set_ylabel("gain")
     axes[1].set_ylabel("phase [°]")
     axes[1].yaxis.set_major_locator(plt.MaxNLocator(steps=[1, 1.5, 3, 4.5, 9]))
