@@ -80,13 +80,12 @@ def test_on_the_page_decimal_points_are_in_line(make):
     for run in runs:
         text = run.text.strip()
         if text in numbers:
-            behind = len(text.partition(".")[2])
-            ends[text] = (run.x1, behind)
-    (wide, most) = ends["0.075"]
-    digit = (wide - ends["12.5"][0]) / 2
+            ends[text] = run.x1
+    wide = ends["0.075"]
+    digit = (wide - ends["12.5"]) / 2
     assert len(ends) == 4 and 3.5 < digit < 6
-    assert ends["4.98"][0] == pytest.approx(wide - digit, abs=0.15)
-    assert ends["3"][0] < ends["12.5"][0] - 1.2 * digit
+    assert ends["4.98"] == pytest.approx(wide - digit, abs=0.15)
+    assert ends["3"] < ends["12.5"] - 1.2 * digit
 
 
 def test_on_the_screen_numbers_leave_the_room_of_what_they_lack(make):
