@@ -34,6 +34,7 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     config.addinivalue_line("markers", f"builds: {BUILDS}")
+    config.addinivalue_line("markers", "whole: one more of a kind that `make test` tries; for `make whole` alone")
     config.addinivalue_line("markers", "long: computes for over 0.4 s (surveys, many seeds); left out by --quick")
     if config.getoption("--quick"):
         _refuse_builders()
@@ -53,6 +54,10 @@ def pytest_collection_modifyitems(config, items):
     for item in items:
         if FIXTURES & set(getattr(item, "fixturenames", ())):
             item.add_marker("builds")
+    if not config.getoption("--whole"):
+        more = [item for item in items if item.get_closest_marker("whole")]
+        config.hook.pytest_deselected(items=more)
+        items[:] = [item for item in items if item not in more]
     if config.getoption("--quick"):
         left_out = {item for item in items if item.get_closest_marker("builds") or item.get_closest_marker("long")}
         config.hook.pytest_deselected(items=list(left_out))

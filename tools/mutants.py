@@ -197,10 +197,10 @@ def _look(copy: Copy, mutant: Mutant) -> Fate:
         return Fate(mutant, "")  # free words, which nothing reads
     if mutant.kind == "derivation" and not copy.off:
         near = [t for t in importers(copy.folder, mutant.module, "tests") if "/notebook_reports/" not in t]
-        if tests := near[:12]:
-            code, said = copy.said("-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *tests)
-            if code in (1, 2):
-                return Fate(mutant, "test", any(n in said for n in mutant.names))
+        flags = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--doctest-modules")
+        code, said = copy.said("-m", "pytest", *flags, mutant.file, *near[:12])
+        if code in (1, 2):
+            return Fate(mutant, "test", any(n in said for n in mutant.names))
     for notebook in mutant.notebooks:
         before, after = copy.unbroken(notebook), copy.checks(notebook, anew=mutant.kind == "derivation")
         for by, differs in WAYS[mutant.kind].items():

@@ -156,7 +156,8 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
         yield 0, len(text), "down" if text == "up" else "up"
         return
     names = (
-        r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
+        r"(?:[Ff]igures?|[Ss]ections?|[Cc]hapters?|[Tt]ables?|eq\.|equations?)"
+        r"\s*[\d.]+(?:\s*(?:and|to|,)\s*[\d.]+)*"
     )
     skipped = [
         m.span() for m in re.finditer(rf"{names}|\\[a-zA-Z]+|\{{\w+[^}}]*\}}|_\{{[^}}]*\}}|_\w+|\^\{{?-?\d+\}}?", text)
@@ -242,7 +243,11 @@ def _span(text: str, starts: list[int], node: ast.AST, kind: str) -> tuple[int, 
 
 
 def input_mutants(root: Path) -> Iterator[Mutant]:
-    """Each numeric literal in the cells of a notebook that check something, outside of figures and tables."""
+    """Each numeric literal that a computation starts from, in the cells of a notebook that check something.
+
+    Left out is what bounds or shows: the limit of a comparison, a tolerance, the digits of a number on the page, what
+    stands in figures and tables.
+    """
     for path in sorted((root / "notebooks").glob("*/*.ipynb")):
         content = json.loads(path.read_text(encoding="utf-8"))
         id = path.relative_to(root / "notebooks").with_suffix("").as_posix()
@@ -251,7 +256,7 @@ def input_mutants(root: Path) -> Iterator[Mutant]:
             text = "".join(cell["source"])
             if cell["cell_type"] != "code" or not re.search(r"\.(check|claims?|misprints?)\(", text):
                 continue
-            for node in ast.walk(ast.parse(text)):
+            for node in _starting_points(ast.parse(text)):
                 if isinstance(node, ast.Constant) and type(node.value) in (int, float):
                     line = cell["source"][node.lineno - 1]
                     raw = line.encode()
@@ -262,6 +267,32 @@ def input_mutants(root: Path) -> Iterator[Mutant]:
                         what = f"{id}, {cell['id']}: {node.value} -> {node.value + 1} in `{line.strip()[:80]}`"
                         where = path.relative_to(root).as_posix()
                         yield Mutant("input", where, a, a + len(old_json), new_json, what, (id,), (id,))
+
+
+SHOWING = ("number", "round", "figure", "curves", "runs", "Table", "join", "shown", "told")
+BOUNDING = ("rel_tol", "abs_tol", "rtol", "atol", "tol", "levels", "caption")
+
+
+def _starting_points(tree: ast.Module) -> Iterator[ast.AST]:
+    """The nodes of a cell without those that only bound or show a result."""
+    skipped: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Compare):
+            sides = (node.left, *node.comparators)
+            skipped |= {
+                x for side in sides for x in ast.walk(side) if not any(isinstance(y, ast.Call) for y in ast.walk(side))
+            }
+        elif isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) in SHOWING:
+            skipped |= {x for part in (*node.args[1:], *node.keywords) for x in ast.walk(part)}
+            if node.func.__class__ is ast.Name and node.func.id in ("figure", "Table"):
+                skipped |= set(ast.walk(node))
+        elif isinstance(node, ast.keyword) and node.arg in BOUNDING:
+            skipped |= set(ast.walk(node.value))
+        elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "agrees":
+            skipped |= {
+                x for part in node.args[1:] if isinstance(part, ast.Constant | ast.UnaryOp) for x in ast.walk(part)
+            }
+    yield from (node for node in ast.walk(tree) if node not in skipped)
 
 
 def needs_of(root: Path) -> dict[str, frozenset[str]]:

@@ -14,8 +14,8 @@ APART = ("__main__", "cli", "design", "code", "tuner", "course", "documents")  #
 NOTEBOOKS = {"nbformat", "nbconvert", "nbclient", "papermill", "IPython", "ipykernel", "jupyter_client", "jupyter_core"}
 HEAVY = NOTEBOOKS | {
     "PIL", "bs4", "control", "dask", "defusedxml", "distributed", "fontTools", "jinja2", "matplotlib", "mistune",
-    "mpmath", "numpy", "pandas", "pygments", "pypdfium2", "scipy", "soupsieve", "sympy", "tinycss2", "tqdm",
-    "traitlets", "typst",
+    "mpmath", "numpy", "pandas", "pygments", "pypdfium2", "schemdraw", "scipy", "soupsieve", "sympy", "tinycss2",
+    "tqdm", "traitlets", "typst",
 }  # fmt: skip
 """Third-party libraries that are worth waiting for only where they are used."""
 ONE_SYSTEM = ("fcntl", "msvcrt", "pwd", "resource")
@@ -105,7 +105,7 @@ def test_the_engine_reaches_neither_the_press_nor_notebooks_nor_what_uses_it(mod
 @pytest.mark.parametrize("module", of("loopbook.plots"))
 def test_plots_know_no_class_of_ours(module):
     ours = {m for m in reach(module) if within(m, *PACKAGES) and not within(m, "loopbook.plots")}
-    assert ours <= {"loopbook", *reach("loopbook")}, "plots take arrays"
+    assert ours <= {"loopbook", "loopbook.extras", *reach("loopbook")}, "plots take arrays"
 
 
 def test_nothing_imports_the_face():

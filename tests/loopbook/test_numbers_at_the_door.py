@@ -17,7 +17,7 @@ from loopbook.controllers.regulator import Regulator
 from loopbook.controllers.rst import PlacementError, Rst
 from loopbook.experiments.data import DataError, FrequencyData, StepData
 from loopbook.loop.continuous import Loop
-from loopbook.pole_placement.numeric import place
+from loopbook.pole_placement.numeric import place_numerically
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process, ProcessError
 from loopbook.response.simulation import simulate
@@ -65,7 +65,7 @@ def test_every_kind_of_number_does_what_the_float_does(kind):
     assert loop.step(horizon=five).y.end >= 5 and loop.with_gain(two).process.num == (2.0,)
     assert (sample(process, two).polynomials[0] == sample(process, 2.0).polynomials[0]).all()
     assert Rst((kind(1), two), (three,), (three,), two) == Rst((1, 2), (3,), (3,), 2)
-    assert place([0, kind(1)], [kind(1), two], [kind(1)], h=two).regulator.h == 2.0
+    assert place_numerically([0, kind(1)], [kind(1), two], [kind(1)], h=two).regulator.h == 2.0
     assert FrequencyData.from_ultimate(two, five) == FrequencyData(0.5, 5)
     assert tune(StepData(2, 5, 3), "lambda-pi", closed=two) == tune(StepData(2, 5, 3), "lambda-pi", closed=2)
     assert half_rule([five, two], kind(1)) == ((6.0,), 2.0)
@@ -99,7 +99,7 @@ def test_what_is_no_number_is_refused_in_one_sentence(bad):
         (ProcessError, lambda: sample(Process([1], [1, 1]), bad)),
         (PlacementError, lambda: Rst((1,), (1,), (1,), bad)),
         (PlacementError, lambda: Rst((1, bad), (1,), (1,), 1)),
-        (PlacementError, lambda: place([0, 1], [1, -0.5], [1], h=bad)),
+        (PlacementError, lambda: place_numerically([0, 1], [1, -0.5], [1], h=bad)),
         (FormError, lambda: PidParallel(bad)),
         (SettingError, lambda: PidSettings(K=bad, h=1)),
         (DataError, lambda: FrequencyData.from_ultimate(bad, 1)),
@@ -117,11 +117,11 @@ def test_what_is_no_number_is_refused_in_one_sentence(bad):
 @pytest.mark.parametrize("h", [0, -1, -1e-9, math.nan, math.inf])
 def test_a_sampling_interval_is_positive(h):
     with pytest.raises(PlacementError, match="h = "):
-        place([0, 0.5], [1, -0.8], [1, -0.3], h=h)
+        place_numerically([0, 0.5], [1, -0.8], [1, -0.3], h=h)
     with pytest.raises(PlacementError, match="h = "):
         Rst((1, -1), (1,), (1,), h)
     with pytest.raises(PlacementError, match="integrators = -1"):
-        place([0, 0.5], [1, -0.8], [1, -0.3], h=1, integrators=-1)
+        place_numerically([0, 0.5], [1, -0.8], [1, -0.3], h=1, integrators=-1)
 
 
 @pytest.mark.parametrize("I, held", [(0, 0.0), (2.5, 2.5), (99.0, 10.0), (-3, 0.0)])
@@ -150,8 +150,20 @@ def test_an_array_gives_an_array(y, exact):
     assert isinstance(Pid(settings).run(y.tolist(), np.array(1.0)), list | np.ndarray)
 
 
+def test_ints_beside_fractions_stay_exact():
+    found = Pid(PidSettings(K=Fraction(1, 3), h=1, u_high=1)).run([0, 1, 2], 1)
+    assert found == [Fraction(1, 3), 0, Fraction(-1, 3)] and all(isinstance(u, Fraction) for u in found)
+
+
+def test_a_number_too_long_for_a_sentence_is_cut():
+    with pytest.raises(ProcessError) as caught:
+        Process([1], [1, 1], 10**400)
+    assert len(str(caught.value)) < 200
+
+
 def test_no_integral_action_is_none_or_infinite():
-    assert PidSettings(K=2.0, Ti=math.inf, h=1.0) == PidSettings(K=2.0, h=1.0)
+    for endless in (math.inf, np.float32(np.inf), Decimal("Infinity"), sympy.oo):
+        assert PidSettings(K=2.0, Ti=endless, h=1.0) == PidSettings(K=2.0, h=1.0)
     assert Pid(PidSettings(K=2.0, Ti=math.inf, h=1.0)).step(0.5, 1.0) == 1.0
     with pytest.raises(SettingError, match="Ti"):
         PidSettings(K=2.0, Ti=-math.inf, h=1.0)

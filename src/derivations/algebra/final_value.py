@@ -55,10 +55,10 @@ def load_error(regulator: Expr, plant: Expr, load: Expr = STEP) -> Expr:
 
 @cache
 def gain_for_error() -> Expr:
-    """The proportional gain that leaves the part e of a set-point step on k/(1 + s T): finite for every e > 0.
+    """The proportional gain that leaves the part e of a set-point step on a static gain k: finite for every e > 0.
 
     >>> sp.expand(gain_for_error())
     -1/k + 1/(e*k)
     """
     e = sp.Symbol("e", positive=True)
-    return solved_for(Kp, e, steady_state_error(Kp, k / (1 + s * T)))
+    return solved_for(Kp, e, steady_state_error(Kp, k))

@@ -60,11 +60,3 @@ def double_lag_instant(p: Expr) -> Expr:
     tau*(-LambertW((p - 1)*exp(-1), -1) - 1)
     """
     return tau * (-1 - sp.LambertW(-(1 - p) * sp.exp(-1), -1))
-
-
-@cache
-def double_lag_rest() -> Expr:
-    """What a unit step response of 1/(1 + s tau)^2 still lacks at t: (1 + t/tau) e^(-t/tau)."""
-    s = sp.Symbol("s")
-    step = sp.inverse_laplace_transform(1 / (s * (1 + s * tau) ** 2), s, t)
-    return sp.factor(sp.simplify(1 - step))

@@ -6,7 +6,7 @@ or that runs in a straight line (first-order hold). Compared with pid-report, eq
 
 from functools import cache
 
-from sympy import Add, Eq, Expr, Function, Symbol, diff, exp, limit, log, simplify, symbols
+from sympy import Add, Eq, Expr, Function, Symbol, diff, exp, log, simplify, symbols
 
 from derivations.algebra.differences import at, by_signals, h, t
 from derivations.algebra.equality import equality
@@ -88,9 +88,3 @@ def filtered_derivative_held() -> Eq:
 def backward_time_constant() -> Expr:
     """The continuous time constant that the backward filter really has: h / log(1 + h / T_f) > T_f."""
     return simplify(h / log(1 / (Tf / (Tf + h))))
-
-
-@cache
-def backward_delay_excess() -> Expr:
-    """Extra time constant of the backward filter for small h: h / 2 to first order."""
-    return limit((backward_time_constant() - Tf) / h, h, 0) * h

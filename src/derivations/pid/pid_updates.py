@@ -45,14 +45,6 @@ def saturated_by_cases(value: Expr, low: Expr = u_low, high: Expr = u_high) -> E
     return Piecewise((high, value > high), (low, value < low), (value, True))
 
 
-def saturation_residuals() -> tuple[Expr, ...]:
-    """Cases minus min and max for v below, at, between, at and above the limits: all zero."""
-    inside, beyond = symbols("inside beyond", positive=True)
-    high = u_low + 2 * inside
-    places = (u_low - beyond, u_low, u_low + inside, high, high + beyond)
-    return tuple(saturated_by_cases(value, u_low, high) - saturated(value, u_low, high) for value in places)
-
-
 @cache
 def sampled_error() -> Expr:
     """e(t_k) = y_sp(t_k) - y(t_k)."""
@@ -95,12 +87,6 @@ def filtered_derivative() -> UpdateLaw:
     raw = update(law.filtered_derivative(), "D_f", BACKWARD)
     gains, short = name_gains(raw, {p3: at("D_f", -1), p24: at("y", -1)})
     return UpdateLaw(gains, equality(short.lhs, short.rhs.expand()))
-
-
-@cache
-def integral_tustin() -> Eq:
-    """I(t_k) = I(t_{k-1}) + K h / (2 T_i) (e(t_k) + e(t_{k-1})): needs the newest error before the output is set."""
-    return update(law.rate(law.integral()), "I", TUSTIN)
 
 
 @cache

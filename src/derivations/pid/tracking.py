@@ -5,7 +5,7 @@ Source: pid-report, sections 4.2.3 and 4.2.5. The recursion is eq. 4.5 with v = 
 
 from functools import cache
 
-from sympy import Expr, Rational, Symbol, factor, sqrt, symbols
+from sympy import Expr, factor, sqrt, symbols
 
 from derivations.algebra.differences import at, by_signals
 from derivations.algebra.rational import solved_for
@@ -37,13 +37,6 @@ def bump() -> Expr:
 
 
 @cache
-def exact_integral() -> Expr:
-    """The I for which v equals the output at once, whatever e is: u_out - r."""
-    state = Symbol("I", real=True)
-    return solved_for(state, state + rest, imposed)
-
-
-@cache
 def spike_effect() -> Expr:
     """Change of I by one sample whose v lies s above the limit: -h s / T_t. With T_t = h all of it."""
     update = term.integral_tracking().full().rhs
@@ -54,8 +47,3 @@ def spike_effect() -> Expr:
 def rule(derivative_time: Expr = Td, integral_time: Expr = Ti) -> Expr:
     """T_t = sqrt(T_i T_d) for PID (section 4.2.3): between T_d and T_i where T_d < T_i."""
     return sqrt(integral_time * derivative_time)
-
-
-def rule_pi(integral_time: Expr = Ti) -> Expr:
-    """T_t = 0.5 T_i for PI (section 4.2.3)."""
-    return Rational(1, 2) * integral_time

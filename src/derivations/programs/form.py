@@ -130,8 +130,3 @@ def walk(body: Iterable[Statement]) -> Iterator[Statement]:
         if isinstance(statement, If):
             yield from walk(statement.then)
             yield from walk(statement.otherwise)
-
-
-def count_branches(body: Iterable[Statement]) -> int:
-    """How many ways the If statements of a body can go: two each."""
-    return 2 * sum(isinstance(s, If) for s in walk(body))

@@ -131,8 +131,8 @@ def thawed(tree: Expr) -> Expr:
     """The expression that a tree computes, for SymPy to work with.
 
     >>> a, b = Symbol("a"), Symbol("b")
-    >>> thawed(Minus(Plus(a, b), b))
-    a
+    >>> thawed(Minus(Plus(a, b), b)), thawed(constant(Rational(-1, 2)))
+    (a, -1/2)
     """
     if not isinstance(tree, FrozenOperation):
         return tree

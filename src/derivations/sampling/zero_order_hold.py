@@ -123,6 +123,8 @@ def zero_order_hold(
     if part.is_number and not (0 <= part < 1):
         raise SamplingError(f"part = {part}: the fraction of a sample of dead time must lie in [0, 1)")
     G = sp.sympify(G, strict=True)
+    if any(e.has(z) for e in (G, h, part)):
+        raise SamplingError(f"G, h or part holds {z}, the variable of the sampled model: name that quantity otherwise")
     plain = _without_assumptions((G, h, part), s, positive=h)
     if plain:
         found = zero_order_hold(G.subs(plain), h.subs(plain), whole, part.subs(plain), s, z)

@@ -6,10 +6,10 @@ the switching from becoming too frequent.
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 from loopbook.controllers.pid import BadMeasurement
 from loopbook.controllers.settings import SettingError
+from loopbook.numerics.real_numbers import Number
 
 
 @dataclass
@@ -26,12 +26,12 @@ class OnOff:
     [1, 1, 0, 0, 1]
     """
 
-    u_low: Any
-    u_high: Any
-    hysteresis: Any = 0
-    dead_zone: Any = 0
-    u_rest: Any = None
-    u: Any = field(default=None, init=False)
+    u_low: Number
+    u_high: Number
+    hysteresis: Number = 0
+    dead_zone: Number = 0
+    u_rest: Number = None
+    u: Number = field(default=None, init=False)
     switches: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
@@ -47,7 +47,7 @@ class OnOff:
         elif not self.u_low <= self.u_rest <= self.u_high:
             raise SettingError("u_rest", self.u_rest, "u_low <= u_rest <= u_high")
 
-    def step(self, y: Any, y_sp: Any) -> Any:
+    def step(self, y: Number, y_sp: Number) -> Number:
         """The output for this sample. Raises BadMeasurement where y or y_sp is not a finite number; u stays."""
         e = y_sp - y
         if e - e != 0:

@@ -18,7 +18,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings, SettingError
-from loopbook.numerics.real_numbers import plain_number
+from loopbook.numerics.real_numbers import Number, plain_number
 
 AUTO, MANUAL = "auto", "manual"
 
@@ -59,11 +59,11 @@ class Pid:
     [2.0, 1.5, 0.75]
     """
 
-    _p_1: Any
-    _p_2: Any
-    _p_24: Any
+    _p_1: Number
+    _p_2: Number
+    _p_24: Number
 
-    def __init__(self, settings: PidSettings, *, I: Any = 0, x: Any = None, on_bad: str = "raise"):
+    def __init__(self, settings: PidSettings, *, I: Number = 0, x: Number = None, on_bad: str = "raise"):
         if on_bad not in ("raise", "hold"):
             raise SettingError("on_bad", on_bad, "raise or hold")
         self.on_bad = on_bad
@@ -77,7 +77,10 @@ class Pid:
 
     def _use(self, settings: PidSettings) -> None:
         self.settings = s = settings
-        values = generated.gains()(s.K, s.Ti, s.Td, s.Tf, s.b, s.c, s.h, s.Tt)
+        given: tuple[Any, ...] = (s.K, s.Ti, s.Td, s.Tf, s.b, s.c, s.h, s.Tt)
+        if any(isinstance(number, Fraction) for number in given):  # the ratio of two ints would be a float
+            given = tuple(Fraction(number) if isinstance(number, int) else number for number in given)
+        values = generated.gains()(*given)
         for name, value in zip(generated.GAINS, values, strict=True):
             setattr(self, f"_{name}", value)
         self._gains = values
@@ -86,7 +89,7 @@ class Pid:
         self._automatic = generated.step(s.anti_windup, s.rate is not None)
         self._followed = generated.step("tracking", False)
 
-    def step(self, y: Any, y_sp: Any) -> Any:
+    def step(self, y: Number, y_sp: Number) -> Number:
         """One sample: the output u for the measurement and the set-point of this sample."""
         if type(y) is not float or type(y_sp) is not float:
             y, y_sp = plain_number(y), plain_number(y_sp)
@@ -102,7 +105,7 @@ class Pid:
             return self._follow(y, y_sp)
         return self._automatic(self, y, y_sp)
 
-    def _bad(self, y: Any, y_sp: Any) -> Any:
+    def _bad(self, y: Number, y_sp: Number) -> Number:
         name, value = ("y", y) if y - y != 0 else ("y_sp", y_sp)
         error = BadMeasurement(name, value, self.u)
         if self.on_bad == "raise":
@@ -113,15 +116,15 @@ class Pid:
         warnings.warn(str(error), BadMeasurementWarning, stacklevel=3)
         return self.u
 
-    def _unlimited(self, y: Any, y_sp: Any) -> Any:
+    def _unlimited(self, y: Number, y_sp: Number) -> Number:
         return self._p_1 * y_sp - self._p_2 * y + self.I + self.x
 
-    def _arrive(self, y: Any, y_sp: Any) -> None:
+    def _arrive(self, y: Number, y_sp: Number) -> None:
         """First automatic sample after an exact transfer: I is set so that v is the last manual output."""
         self.I += self._arriving - self._unlimited(y, y_sp)
         self._arriving = None
 
-    def _follow(self, y: Any, y_sp: Any) -> Any:
+    def _follow(self, y: Number, y_sp: Number) -> Number:
         """A manual sample: the algorithm runs and tracks the operator's output."""
         low, high = self._low, self._high
         self._low = self._high = self._manual
@@ -129,7 +132,7 @@ class Pid:
         self._low, self._high = low, high
         return self.u
 
-    def manual(self, u: Any = None) -> Any:
+    def manual(self, u: Number = None) -> Number:
         """Switch to manual, or set another manual output. u: within the limits; default the last output (no jump)."""
         value = self.u if u is None else u
         if value is None:
@@ -171,7 +174,7 @@ class Pid:
             self.x = x if bumpless == "exact" else self.x
         return self.settings
 
-    def run(self, y: Sequence[Any] | np.ndarray, y_sp: Any, out: Any = None) -> Any:
+    def run(self, y: Sequence[Number] | np.ndarray, y_sp: Number, out: Number = None) -> Number:
         """Many automatic samples over recorded signals, fast.
 
         y: measurements; y_sp: one set-point, or one per measurement. out: array or list to fill, default a new array
@@ -188,7 +191,7 @@ class Pid:
             raise ValueError(f"{len(y_sp)} set-points for {len(y)} measurements: as many of both are needed")
         finite = np.isfinite(np.asarray(y, float)) & np.isfinite(np.asarray(y_sp, float))
         stops = [*np.flatnonzero(~finite).tolist(), len(y)]
-        outputs: list[Any] = [None] * len(y)
+        outputs: list[Number] = [None] * len(y)
         done = 0
         while done < len(y):
             try:
@@ -203,7 +206,7 @@ class Pid:
         out[:] = outputs
         return out
 
-    def _play(self, y: list[Any], y_sp: list[Any], outputs: list[Any], start: int, stop: int) -> None:
+    def _play(self, y: list[Number], y_sp: list[Number], outputs: list[Number], start: int, stop: int) -> None:
         if start >= stop:
             return
         s = self.settings

@@ -9,7 +9,8 @@ from fractions import Fraction
 from typing import Any
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.real_numbers import plain_number
+from loopbook.controllers.pid_forms import PidParallel, PidSeries, PidStandard
+from loopbook.numerics.real_numbers import Number, plain_number
 
 ANTI_WINDUP = {
     "tracking": "I follows the limited output with the time constant Tt (pid-report, eq. 4.5)",
@@ -39,7 +40,7 @@ def _number(name: str, value: Any, infinite: bool = False) -> int | float | Frac
     return number
 
 
-def tracking_time(Ti: Any, Td: Any) -> Any:
+def tracking_time(Ti: Number, Td: Number) -> Number:
     """T_t = sqrt(Ti Td), or 0.5 Ti where Td = 0 [s]. Source: pid-report, section 4.2.3, from its [5] and [7].
 
     Fractions give a fraction where the root is rational; else SettingError asks for Tt.
@@ -79,17 +80,17 @@ class PidSettings:
     2.0
     """
 
-    K: Any
-    Ti: Any = None
-    Td: Any = 0
-    Tf: Any = 0
-    b: Any = 1
-    c: Any = 0
-    h: Any
-    Tt: Any = None
-    u_low: Any = -math.inf
-    u_high: Any = math.inf
-    rate: Any = None
+    K: Number
+    Ti: Number = None
+    Td: Number = 0
+    Tf: Number = 0
+    b: Number = 1
+    c: Number = 0
+    h: Number
+    Tt: Number = None
+    u_low: Number = -math.inf
+    u_high: Number = math.inf
+    rate: Number = None
     anti_windup: str = "tracking"
 
     def __post_init__(self) -> None:
@@ -132,7 +133,7 @@ class PidSettings:
         return replace(self, **settings)
 
     @classmethod
-    def of(cls, form: Any, *, h: Any, **more: Any) -> "PidSettings":
+    def of(cls, form: PidStandard | PidParallel | PidSeries, *, h: Number, **more: Any) -> "PidSettings":
         """From a PID form of `loopbook.controllers.pid_forms` (standard, parallel, series) and the sampling interval h.
 
         >>> from loopbook.controllers.pid_forms import PidStandard

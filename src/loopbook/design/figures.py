@@ -1,20 +1,30 @@
 """The design report's figures: the record with its model, the responses of the rules, the trade-off between them."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from loopbook.design.evaluation import Evaluation
+from loopbook.design.speed import Speed
+from loopbook.design.study import Study
+from loopbook.identification.choice import Identified
 from loopbook.plots.curves import COLOURS, STYLES, curves
 from loopbook.plots.legend import legend_below
+from loopbook.response.simulation import Simulation
+from notebook_reports import display
 from notebook_reports.display import figure
 from notebook_reports.project.printable import printable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MOST = 6
 """How many responses one figure can hold and still be read."""
 
 
-def record_or_step(study: Any) -> Any:
+def record_or_step(study: Study) -> display.Figure:
     """The record with its model, captioned; for a model that was given its step response."""
     if study.identified is not None:
         caption = "The recorded output with the fitted model, the residuals, and the recorded input."
@@ -25,8 +35,8 @@ def record_or_step(study: Any) -> Any:
     return figure(drawn, "The step response of the given model.", "A curve over time that starts after the dead time.")
 
 
-def record(found: Any) -> Any:
-    """Input, output and the chosen model; below them the residuals. found: `identification.choice.Identified`."""
+def record(found: Identified) -> "Figure":
+    """Input, output and the chosen model; below them the residuals."""
     import matplotlib.pyplot as plt
 
     log, fit = found.record, found.chosen
@@ -48,7 +58,7 @@ def record(found: Any) -> Any:
     return fig
 
 
-def sheet(study: Any) -> Any:
+def sheet(study: Study) -> display.Figure:
     """The record with its model, small, for the first page; of a given model its step response."""
     import matplotlib.pyplot as plt
 
@@ -81,26 +91,39 @@ def _label(name: str, unit: str) -> str:
     return printable(f"{name} [{unit}]" if unit else name).replace("$", r"\$")
 
 
-def responses(evaluations: Sequence[Any], horizon: float) -> Any:
+def responses(evaluations: Sequence[Evaluation], horizon: float) -> "Figure":
     """y and u after a reference step at t = 0 and a load step at half the horizon, of at most six loops."""
     t = np.linspace(0.0, horizon, 600)
     outputs, inputs = {}, {}
-    for e in [e for e in evaluations if e.stable][:MOST]:
-        y1, u1 = e.reference.after([(0.0, 1.0)], np.minimum(t, e.reference.horizon))
-        y2, u2 = e.load.after([(horizon / 2, 1.0)], np.minimum(t, e.load.horizon))
-        outputs[e.candidate.name], inputs["_" + e.candidate.name] = (t, y1 + y2), (t, u1 + u2)
+    stable = [(e.candidate.name, e.reference, e.load) for e in evaluations if e.reference and e.load]
+    for name, reference, load in stable[:MOST]:
+        y1, u1 = reference.after([(0.0, 1.0)], np.minimum(t, reference.horizon))
+        y2, u2 = load.after([(horizon / 2, 1.0)], np.minimum(t, load.horizon))
+        outputs[name], inputs["_" + name] = (t, y1 + y2), (t, u1 + u2)
     panels = {"output $y$": outputs, "input $u$": inputs}
     return curves(panels, "Unit steps of the reference (at once) and of the load (half-way)", levels=(1.0,), height=5.0)
 
 
-def limited(run: Any) -> Any:
-    """The chosen regulator as it will run. run: `loopbook.response.simulation.Simulation`."""
+def limited(run: Simulation) -> "Figure":
+    """The chosen regulator as it will run."""
     panels = {"output $y$": {"sampled loop": (run.t, run.y), "reference": (run.t, run.reference)},
               "input $u$": {"within the limits": (run.t, run.u), "demanded": (run.t, run.demanded)}}  # fmt: skip
     return curves(panels, "The sampled regulator within the actuator's limits", height=4.6)
 
 
-def along(curve: Sequence[Any], chosen: Any) -> Any:
+def _load_against_peak(axis: "Axes", chosen: Evaluation, title: str) -> None:
+    """The axes of load error against robustness, with the usual limits of Ms and a ring around the chosen loop."""
+    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
+    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
+        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
+    axis.set_yscale("log")
+    axis.set_xlabel("sensitivity peak $M_s$")
+    axis.set_ylabel("IAE after a load step")
+    axis.set_title(title)
+    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+
+
+def along(curve: Sequence[tuple[Speed, Evaluation]], chosen: Evaluation) -> "Figure":
     """The trade-off along the knob from slow to fast: a line of PI and one of PID; the chosen loop ringed.
 
     curve: (speed, evaluation) pairs of `Study.curve`.
@@ -116,20 +139,13 @@ def along(curve: Sequence[Any], chosen: Any) -> Any:
         axis.plot([e.Ms for _, e in points], [e.iae_load for _, e in points], label=kind, **how)
         for knob, e in points:
             axis.annotate(f"{knob.speed:g}", (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
-    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
-    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
-        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
-    axis.set_yscale("log")
-    axis.set_xlabel("sensitivity peak $M_s$")
-    axis.set_ylabel("IAE after a load step")
-    axis.set_title("From slow (0) to fast (1)")
-    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+    _load_against_peak(axis, chosen, "From slow (0) to fast (1)")
     if curve:
         axis.legend(fontsize="small")
     return fig
 
 
-def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
+def trade_off(evaluations: Sequence[Evaluation], chosen: Evaluation) -> "Figure":
     """Load error against robustness, one point a rule; PI as circles, PID as squares, the chosen one ringed."""
     import matplotlib.pyplot as plt
 
@@ -140,14 +156,7 @@ def trade_off(evaluations: Sequence[Any], chosen: Any) -> Any:
         colour = COLOURS[i % len(COLOURS)]
         axis.plot(e.Ms, e.iae_load, color=colour, label=f"{i + 1}  {e.candidate.name}", **how)
         axis.annotate(str(i + 1), (e.Ms, e.iae_load), textcoords="offset points", xytext=(4, 4), fontsize=7)
-    axis.plot(chosen.Ms, chosen.iae_load, "o", markersize=13, markerfacecolor="none", markeredgecolor="0.2")
-    for limit, style in ((1.4, STYLES[3]), (2.0, STYLES[1])):
-        axis.axvline(limit, color="0.6", linewidth=0.8, linestyle=style)
-    axis.set_yscale("log")
-    axis.set_xlabel("sensitivity peak $M_s$")
-    axis.set_ylabel("IAE after a load step")
-    axis.set_title("Robustness against load rejection")
-    axis.grid(True, which="both", linewidth=0.4, alpha=0.5)
+    _load_against_peak(axis, chosen, "Robustness against load rejection")
     if stable:
         axis.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return fig

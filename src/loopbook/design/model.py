@@ -9,7 +9,6 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.experiments import step
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
-from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.transfer_function import Process
 from notebook_reports.display import number
 
@@ -106,14 +105,6 @@ class Model:
         if len(model.lags) == 1:
             return StepData(model.gain, model.lags[0], model.delay)
         return step.step_data(model.process)
-
-    @cached_property
-    def frequency_data(self) -> "FrequencyData":
-        """K180 and T180: measured, or of the model. Raises NoSuchFrequency where the model never lags so far."""
-        if self.frequency is not None:
-            return self.frequency
-        point = ultimate(self.upright.process)
-        return FrequencyData(point.K180, point.T180)
 
     def variations(self, number: int, seed: int = 0) -> list["Model"]:
         """Models drawn from the confidence region, normal around this one; none where it is taken as exact.

@@ -105,26 +105,17 @@ def fit_directions(record: Record, steps: Steps, symmetric: Fit) -> tuple[Direct
     jacobian = [(predicted(values + e) - predicted(values - e)) / (2 * e.sum()) for e in np.diag(moves)]
     covariance, freedom = intervals.covariance(np.column_stack([*jacobian, columns[:, :-1]]), left, problem.y)
     widths = float(stdtrit(freedom, 0.975)) * np.sqrt(np.maximum(np.diag(covariance)[:4], 0))
-    whole = np.zeros(len(record.time))
-    whole[problem.used] = left
 
     def one(which: int) -> Fit:
         keep = [0, which, 3]
         names = ("Kp", "T", "L")
         parameters = tuple(Parameter(n, float(values[i]), float(widths[i])) for n, i in zip(names, keep, strict=True))
-        return Fit(
-            FIRST_ORDER,
+        return problem.fitted(
             parameters,
-            rest=float(coefficients[0]),
-            drift=float(coefficients[1]) if symmetric.nuisance == "drift" else 0.0,
-            residuals=whole,
-            fit=problem.explained(left),
-            rmse=float(np.sqrt(np.mean(left**2))),
-            correlation=intervals.correlation(left),
+            left,
+            coefficients,
             settled=float((record.time[-1] - steps.list[-1][0] - delay) / values[which]),
             covariance=covariance[np.ix_(keep, keep)],
-            nuisance=symmetric.nuisance,
-            effects=symmetric.effects,
             answer=float(np.ptp(predicted(values))),
         )
 

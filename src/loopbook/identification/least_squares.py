@@ -9,6 +9,7 @@ points of a grid, so that the non-convex dead time cannot trap the search. Any o
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -61,6 +62,27 @@ class FitProblem:
         """100 (1 - |residual| / |y - mean|), in percent."""
         whole = float(np.linalg.norm(self.y - self.y.mean()))
         return 100 * (1 - float(np.linalg.norm(residuals)) / max(whole, 1e-300))
+
+    def fitted(
+        self, parameters: tuple[Parameter, ...], residuals: np.ndarray, coefficients: np.ndarray, **more: Any
+    ) -> Fit:
+        """The fit that these parameters are. coefficients: those of `eliminated`. more: what else a `Fit` holds."""
+        whole = np.zeros(len(self.record.time))
+        whole[self.used] = residuals
+        effects = dict(zip(self.others, coefficients[-1 - len(self.others) : -1].tolist(), strict=True))
+        return Fit(
+            self.structure,
+            parameters,
+            rest=float(coefficients[0]),
+            drift=float(coefficients[1]) if self.nuisance == "drift" else 0.0,
+            residuals=whole,
+            fit=self.explained(residuals),
+            rmse=float(np.sqrt(np.mean(residuals**2))),
+            correlation=intervals.correlation(residuals),
+            nuisance=self.nuisance,
+            effects=effects,
+            **more,
+        )
 
     def lags(self, theta: np.ndarray) -> tuple[float, ...]:
         """Time constants from the search variables: log T, then the ratio T2/T1 in (0, 1]."""
@@ -247,22 +269,12 @@ def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed
         Parameter(*row) for row in zip(names, values.tolist(), (quantile * spread).tolist(), strict=True)
     )
     after = record.time[-1] - steps.list[-1][0] - delay
-    whole = np.zeros(len(record.time))
-    whole[problem.used] = residuals
-    effects = dict(zip(problem.others, coefficients[-1 - len(problem.others) : -1].tolist(), strict=True))
-    return Fit(
-        structure,
+    return problem.fitted(
         parameters,
-        rest=float(coefficients[0]),
-        drift=float(coefficients[1]) if problem.nuisance == "drift" else 0.0,
-        residuals=whole,
-        fit=problem.explained(residuals),
-        rmse=float(np.sqrt(np.mean(residuals**2))),
-        correlation=intervals.correlation(residuals),
+        residuals,
+        coefficients,
         settled=float("inf") if structure.integrating else float(after / sum(lags)),
         covariance=covariance,
-        nuisance=problem.nuisance,
-        effects=effects,
         answer=float(np.ptp(predicted(values))),
     )
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 LOOP = ("Ms", "phase margin [°]", "gain margin", "IAE, load", "overshoot [%]", "settling [s]", "peak |u|")
 RUN = ("overshoot [%]", "IAE", "largest u", "smallest u", "variation of u")
@@ -37,7 +40,7 @@ class SideBySide(ShownAsTable):
         """One measure of all, by name."""
         return {name: row[self.heads.index(head)] for name, row in self.values.items()}
 
-    def plot(self, horizon: float | None = None) -> Any:
+    def plot(self, horizon: float | None = None) -> "Figure":
         """Output and input: of loops after unit steps of reference and load, of runs as they went; a figure."""
         y, u = {}, {}
         if self.heads == RUN:

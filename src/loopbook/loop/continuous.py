@@ -14,7 +14,7 @@ reaches the output through W (which may have dead times of its own).
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +29,9 @@ from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import DelayedSum, Process
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
 from loopbook.response.step_metrics import exact_metrics
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SETTLED = 1e-9
 AT_REST = 1e-10
@@ -147,7 +150,7 @@ class Loop:
         if count:
             raise LoopError(f"the loop is not stable ({count} roots in the right half plane): it has no {what}")
 
-    def plot(self, horizon: float | None = None) -> Any:
+    def plot(self, horizon: float | None = None) -> "Figure":
         """y and u after a unit step of the reference, and of the load at half the horizon [s]: a matplotlib figure."""
         y, u = self.reference_and_load(horizon or 3 * self.step("reference").metrics().settling)
         title = "Unit steps of the reference (at once) and of the load (half-way)"
@@ -176,20 +179,28 @@ class Loop:
             return StepResponse(self, source, until, *self._answer(source, until))
         until = self.settling_horizon()
         final = self.final_values(source)
+        signals = self._answer(source, until)
         for _ in range(PROLONGED):
-            signals = self._answer(source, until)
-            if all(_at_rest(signal, end) for signal, end in zip(signals, final, strict=True)):
+            left = _left(signals, final)
+            if left <= AT_REST:
                 break
-            until *= 2  # modes of one speed die out later than each of them alone
+            longer = self._answer(source, 2 * until)  # modes of one speed die out later than each of them alone
+            if _left(longer, final) > left / 4:  # what waiting does not take away is rounding
+                break
+            signals, until = longer, 2 * until
         return StepResponse(self, source, until, *signals)
 
     def _answer(self, source: str, horizon: float) -> tuple[Signal, Signal]:
         return closed_loop_step(self.process, self.polynomials, source, horizon, self.path)
 
 
-def _at_rest(signal: Signal, final: float) -> bool:
-    left = abs(float(signal(signal.end)) - final)
-    return left <= AT_REST * max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
+def _left(signals: Sequence[Signal], finals: Sequence[float]) -> float:
+    """How far from its final value a signal ends, as a part of its size: the worst of them."""
+    left = 0.0
+    for signal, final in zip(signals, finals, strict=True):
+        size = max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
+        left = max(left, abs(float(signal(signal.end)) - final) / size if size else 0.0)
+    return left
 
 
 def _without_common_integrators(*rows: Sequence[float]) -> list[tuple[float, ...]]:
@@ -258,7 +269,7 @@ class StepResponse:
         """(time [s], value [u]) of the largest |u|; the value keeps its sign."""
         return self.u.until(min(self.horizon, self.u.end)).peak()
 
-    def plot(self) -> Any:
+    def plot(self) -> "Figure":
         """y and u as a matplotlib figure."""
         t = np.linspace(0.0, min(self.horizon, self.y.end, self.u.end), 1000)
         panels = {"output $y$": {"y": (t, self.y(t))}, "input $u$": {"u": (t, self.u(t))}}

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from loopbook.plots.frequency import Curve, bode_figure, nyquist_curves
 from loopbook.plots.shown import shown_once
 from loopbook.process.sampled import SampledProcess
 from loopbook.process.transfer_function import Process
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 DECADES = 1.5  # beyond the outermost corner
 TURN = 0.1  # rad of dead-time phase between neighbouring points
@@ -38,7 +41,7 @@ def margins(loop: Loop | SampledLoop) -> Margins | SampledMargins:
     return loop.margins()
 
 
-def bode(system: Any, w: Sequence[float] | None = None, title: str = "Bode diagram") -> Any:
+def bode(system: Any, w: Sequence[float] | None = None, title: str = "Bode diagram") -> "Figure":
     """Gain and phase with exact dead time, as a matplotlib figure; of a loop the loop transfer with its margins.
 
     system: a `Process`, `Loop`, `SampledProcess` or `SampledLoop`, a PID form or a regulator, or several by name in a
@@ -50,7 +53,7 @@ def bode(system: Any, w: Sequence[float] | None = None, title: str = "Bode diagr
     return shown_once(bode_figure(_curves(system, w), title))
 
 
-def nyquist(system: Any, w: Sequence[float] | None = None, title: str = "Nyquist diagram") -> Any:
+def nyquist(system: Any, w: Sequence[float] | None = None, title: str = "Nyquist diagram") -> "Figure":
     """The curve around -1 with the margins, and the circle that it touches for its Ms; arguments as for `bode`.
 
     >>> from loopbook.controllers.pid_forms import PidStandard

@@ -45,7 +45,8 @@ class Margins(ShownAsTable):
 
     gain: the smallest factor above 1 that makes the loop unstable (inf if none). gain_low: the largest below 1 (0 if
     none). The loop is stable for every factor between the two. phase [degrees]: the smallest of all gain crossovers in
-    magnitude; inf without one. delay [s]: the smallest added dead time that makes the loop unstable; inf if none.
+    magnitude; inf without one. delay [s]: the smallest added dead time that makes the loop unstable; inf if none, 0
+    where the loop gain does not fall below 1 at high frequency, which no dead time leaves stable.
     Ms, Mt: sensitivity peaks with their frequencies. gain_crossovers, phase_crossovers: all that were compared.
     """
 
@@ -131,7 +132,7 @@ def margins(loop: LoopTransfer) -> Margins:
         gain=min(above, default=np.inf),
         gain_low=max(below, default=0.0),
         phase=min((c.phase_margin for c in at_gain), key=abs, default=np.inf),
-        delay=min((c.delay_margin for c in at_gain), default=np.inf),
+        delay=0.0 if loop.gain_at_infinity >= 1 else min((c.delay_margin for c in at_gain), default=np.inf),
         Ms=sensitivity_peak(loop),
         Mt=complementary_peak(loop),
         gain_crossovers=at_gain,

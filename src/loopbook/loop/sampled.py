@@ -144,7 +144,7 @@ class SampledLoop:
             gain=float(factors[factors > 1].min(initial=np.inf)),
             gain_low=float(factors[factors < 1].max(initial=0.0)),
             phase=float(min(at_gain, key=abs, default=np.inf)),
-            delay=delay_margin(self.process, self.regulator),
+            delay=delay_margin(self.process, self.regulator, lambda more: self.with_delay(more).is_stable),
             Ms=Peak(Ms.value, Ms.w / h),
             Mt=Peak(Mt.value, Mt.w / h),
         )

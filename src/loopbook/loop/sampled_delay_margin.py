@@ -16,6 +16,7 @@ first finds that solution to rounding.
 
 import cmath
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -31,7 +32,7 @@ RESOLVED, ROUNDING = 1e-13, 1e-15
 FINEST = 1e-11
 NEAR = 1e-5
 NEWTON, NEWTON_EVERY = 12, 5
-BESIDE = 1e-12
+BESIDE, JUST, LONGEST = 1e-12, 1e-9, 12
 TURNS_TRIED = 64
 ROUNDS = 120
 MOST_BOXES = 100_000
@@ -57,6 +58,17 @@ class _Numerator:
             if np.abs(series[-3:]).max() <= RESOLVED * np.abs(series).max():
                 break
         return cls(np.where(np.abs(series) > ROUNDING * np.abs(series).max(), series, 0.0))
+
+    @classmethod
+    def of_jump(cls, process: Process, h: float) -> "_Numerator":
+        """B from a dead time of whole samples (0) to one that is longer by nothing (1), where a process that acts at
+        once does so one sample later.
+        """
+        B, A = sample(process.rational, h).polynomials
+        powers = _to_powers_of_v(len(A) + 1)
+        before, acts = (np.append(p, 0.0) @ powers for p in (B, B[0] * A))
+        half = np.append(0.0, acts[:-1]) / 2  # times v = 1 - z^-1
+        return cls(np.array([before - half, -half]))
 
     @cached_property
     def slopes(self) -> np.ndarray:
@@ -91,9 +103,8 @@ def _to_powers_of_v(count: int) -> np.ndarray:
 class _Circle:
     """M and N on the unit circle for one loop."""
 
-    def __init__(self, process: Process, regulator: Rst):
-        h = regulator.h
-        self.numerator = _Numerator.of(process, h)
+    def __init__(self, process: Process, regulator: Rst, numerator: _Numerator):
+        h, self.numerator = regulator.h, numerator
         S = np.asarray(regulator.S)
         self.lead = int(np.flatnonzero(S)[0])
         self.gain = float(S[self.lead])
@@ -169,15 +180,44 @@ class _Circle:
         return (a, min(max(f, 0.0), 1.0)) if inside else None
 
 
-def delay_margin(process: Process, regulator: Rst) -> float:
-    """The least added dead time [s] that makes a stable loop unstable; inf where none does, as |N| < |M| all around."""
+def delay_margin(process: Process, regulator: Rst, holds: Callable[[float], bool]) -> float:
+    """The least added dead time [s] that makes a stable loop unstable; inf where none does, as |N| < |M| all around.
+
+    holds: is the loop stable with so much more dead time? It is asked where a process that acts at once jumps.
+    """
     if not any(regulator.S) or not any(process.num):
         return math.inf
-    circle, has = _Circle(process, regulator), process.delay / regulator.h
+    h, has = regulator.h, process.delay / regulator.h
+    best = math.inf if process.relative_degree else _first_jump(process, regulator, holds)
+    if process.order:  # without states nothing moves between the jumps
+        best = _first_root(_Circle(process, regulator, _Numerator.of(process, h)), has, best)
+    return (best - has) * h
+
+
+def _first_jump(process: Process, regulator: Rst, holds: Callable[[float], bool]) -> float:
+    """The dead time of whole intervals of which the least more makes the loop unstable, of a process that acts at once.
+
+    Where the loop is found unstable before, by then at the latest; inf where neither is found.
+    """
+    h, has = regulator.h, process.delay / regulator.h
+    jumps, end = _Circle(process, regulator, _Numerator.of_jump(process, h)), math.inf
+    at = _first_root(jumps, math.ceil(has - BESIDE * max(has, 1)), end)
+    while at < end:
+        whole = math.floor(at)
+        if not holds((max(whole - has, 0.0) + JUST) * h):
+            return max(whole, has)
+        if math.isinf(end):
+            end = next((math.ceil(has + 2.0**i) for i in range(LONGEST) if not holds(2.0**i * h)), math.inf)
+        at = _first_root(jumps, whole + 1, end)
+    return end
+
+
+def _first_root(circle: _Circle, has: float, best: float) -> float:
+    """The least l + f beyond `has`, below `best`, with a root on the circle; `best` where there is none."""
+    at = (0.0, 0.0)
     edges = np.geomspace(circle.start(), np.pi, 120)
     low_a, low_f = (x.ravel() for x in np.meshgrid(edges[:-1], np.linspace(0, 1, 5)[:-1], indexing="ij"))
     boxes = np.array([low_a, np.repeat(edges[1:], 4), low_f, low_f + 0.25])
-    best, at = math.inf, (0.0, 0.0)
     for round_ in range(ROUNDS):
         least, most, *change = circle.survey(*_middle(boxes), *_half(boxes))
         passes = (least <= 0) & (most >= 0)
@@ -193,10 +233,10 @@ def delay_margin(process: Process, regulator: Rst) -> float:
             next_ = int(np.argmin(np.where(away.any(axis=0), first, np.inf)))
             a, f = _middle(boxes)[:, next_].tolist()
             found = circle.solve(a, f, int(whole[next_]))
-            if found and has * (1 + BESIDE) < whole[next_] + found[1] < best:
+            if found and has * (1 + BESIDE) + BESIDE < whole[next_] + found[1] < best:
                 best, at = float(whole[next_] + found[1]), found
         boxes = _halved(boxes, by_f >= by_a + whole * _half(boxes)[0])[:, np.tile(first < best, 2)]
-    return (best - has) * regulator.h
+    return best
 
 
 def _middle(boxes: np.ndarray) -> np.ndarray:

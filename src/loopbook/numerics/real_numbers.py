@@ -9,11 +9,25 @@ import math
 import numbers
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
+Number: TypeAlias = Any
+"""A real number of any kind that adds, multiplies and compares: int, float, Fraction, NumPy's single precision."""
+
+LONGEST = 60
 EXPECTED = "a real number is expected (int, float, Fraction, Decimal, a NumPy or SymPy number)"
+
+
+def in_a_sentence(value: Any) -> str:
+    """The value as a sentence can show it: its repr, cut where that is long.
+
+    >>> len(in_a_sentence(10**400)) <= LONGEST
+    True
+    """
+    text = repr(value)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 4]} ..."
 
 
 def plain_number(value: Any) -> int | float | Fraction:
@@ -29,7 +43,7 @@ def plain_number(value: Any) -> int | float | Fraction:
     if isinstance(value, np.ndarray) and value.ndim == 0:
         return plain_number(value.item())
     if isinstance(value, bool | np.bool_ | str | bytes):
-        raise TypeError(f"{value!r} is no number: {EXPECTED}")
+        raise TypeError(f"{in_a_sentence(value)} is no number: {EXPECTED}")
     if isinstance(value, Decimal):
         return Fraction(value) if value.is_finite() else float(value)
     if isinstance(value, np.integer):
@@ -38,9 +52,9 @@ def plain_number(value: Any) -> int | float | Fraction:
         return Fraction(int(value.p), int(value.q))
     if isinstance(value, numbers.Rational):
         return Fraction(int(value.numerator), int(value.denominator))
-    if isinstance(value, numbers.Real) or (getattr(value, "is_real", False) and getattr(value, "is_number", False)):
+    if isinstance(value, numbers.Real) or (getattr(value, "is_extended_real", False) and value.is_number):
         return float(value)
-    raise TypeError(f"{value!r} is a {kind.__name__}: {EXPECTED}")
+    raise TypeError(f"{in_a_sentence(value)} is a {kind.__name__}: {EXPECTED}")
 
 
 def real(value: Any, name: str, error: type[ValueError] = ValueError, unit: str = "") -> float:
@@ -53,9 +67,11 @@ def real(value: Any, name: str, error: type[ValueError] = ValueError, unit: str 
     try:
         number = float(plain_number(value))
     except (TypeError, OverflowError):
-        raise error(f"{name} = {value!r}: {EXPECTED}") from None
+        raise error(f"{name} = {in_a_sentence(value)}: {EXPECTED}") from None
     if not math.isfinite(number):
-        raise error(f"{name} = {value!r}: a finite number{' of seconds' if unit == ' s' else ''} is expected")
+        raise error(
+            f"{name} = {in_a_sentence(value)}: a finite number{' of seconds' if unit == ' s' else ''} is expected"
+        )
     return number
 
 
@@ -67,5 +83,5 @@ def positive(value: Any, name: str, error: type[ValueError] = ValueError, unit: 
     """
     number = real(value, name, error, unit)
     if not number > 0:
-        raise error(f"{name} = {value!r}{unit} must be positive")
+        raise error(f"{name} = {in_a_sentence(value)}{unit} must be positive")
     return number

@@ -68,17 +68,13 @@ class Signal:
         x = 2 * (t - self.edges[cell]) / self.lengths[cell] - 1
         return np.where(t < self.start, 0.0, series(np.moveaxis(self.coefficients[cell], -1, 0), x))
 
-    def limit_before(self, time: float) -> float:
-        """The value just before `time`: the left-hand side of a jump."""
-        if time <= self.start:
-            return 0.0
-        cell = int(np.clip(np.searchsorted(self.edges, time, side="left") - 1, 0, len(self.coefficients) - 1))
-        x = 2 * (time - self.edges[cell]) / self.lengths[cell] - 1
-        return float(legendre.legval(x, self.coefficients[cell]))
-
     def delayed(self, delay: float) -> "Signal":
-        """The same signal `delay` seconds later."""
-        return Signal(self.edges + delay, self.coefficients) if delay else self
+        """The same signal `delay` seconds later; cells that so late are shorter than any number tells are left out."""
+        if not delay:
+            return self
+        edges = self.edges + delay
+        kept = np.diff(edges) > 0
+        return Signal(edges[np.append(True, kept)], self.coefficients[kept])
 
     def until(self, time: float) -> "Signal":
         """The signal cut off at `time`, which becomes its horizon."""

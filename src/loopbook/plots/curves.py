@@ -1,7 +1,10 @@
 """Named curves over one axis, in one panel or several: step responses, control signals, static characteristics."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 from loopbook.plots.legend import legend_below, legend_beside
 
@@ -18,12 +21,16 @@ def curves(
     levels: Sequence[float] = (),
     instants: Sequence[float] = (),
     height: float = 0.0,
-) -> Any:
+) -> "Figure":
     """A matplotlib figure: per panel its y label (with the unit) and its curves by name as (x values, y values).
 
     levels: horizontal guides in the first panel. instants: vertical guides in every panel. height: inch; default 3
     for one panel, 4.4 for more. A name that starts with "_" is drawn without a legend entry; a name that starts with
     "o " is drawn as points. Panels share the x axis. Raises ValueError without panels.
+
+    >>> fig = curves({"output $y$ [K]": {"rise": ([0, 1], [0, 1])}}, "A title")
+    >>> fig.axes[0].get_ylabel()
+    'output $y$ [K]'
     """
     import matplotlib.pyplot as plt
 

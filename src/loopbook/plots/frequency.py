@@ -3,12 +3,15 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from loopbook.plots.curves import COLOURS, STYLES
 from loopbook.plots.legend import legend_below
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NEAR = 3.0  # how far a Nyquist diagram looks beyond what is near -1
 
@@ -28,7 +31,7 @@ class Curve:
     peak: tuple[float, float] | None = None
 
 
-def bode_figure(curves: Mapping[str, Curve], title: str) -> Any:
+def bode_figure(curves: Mapping[str, Curve], title: str) -> "Figure":
     """Gain and phase over the frequency; of a single curve with its margins."""
     import matplotlib.pyplot as plt
 
@@ -77,7 +80,7 @@ def _draw_margins(axes: Any, curve: Curve) -> None:
         axes[0].axvline(w, color="0.6", linewidth=0.8, linestyle=":")
 
 
-def nyquist_curves(curves: Mapping[str, Curve], title: str) -> Any:
+def nyquist_curves(curves: Mapping[str, Curve], title: str) -> "Figure":
     """Nyquist curves around -1, of a single curve with its margins and the circle that Ms stays out of."""
     import matplotlib.pyplot as plt
 

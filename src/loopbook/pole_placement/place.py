@@ -30,6 +30,8 @@ def place(
     >>> place(sample(Process([1], [5, 1]), 1.0), 0.5).regulator.is_stable
     True
     """
+    if not (isinstance(integrators, int | np.integer) and integrators >= 0):
+        raise PlacementError(f"integrators = {integrators!r}: a whole number, 0 or more, is expected")
     wanted = (
         list(poles) if isinstance(poles, Sequence | np.ndarray) else [poles] * (process.process.order + integrators)
     )

@@ -13,7 +13,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from loopbook.numerics.units import power_of_two
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import Process, ProcessError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 LARGEST = 300.0
 LOST = 1e5
@@ -125,7 +128,7 @@ class SampledProcess:
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"
 
-    def plot(self, steps: int | None = None) -> Any:
+    def plot(self, steps: int | None = None) -> "Figure":
         """The unit step response at the sampling instants as a matplotlib figure."""
         slow = float(sum(1 / abs(p.real) for p in self.process.poles if p.real))
         steps = steps or int((self.process.delay * 2 + 7 * slow) / self.h) or 40

@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,11 +18,14 @@ from derivations.errors import LoopbookError
 from loopbook.extras import needed
 from loopbook.numerics import horner, polynomial_text
 from loopbook.numerics.multiple_roots import put_together
-from loopbook.numerics.real_numbers import plain_number, positive, real
+from loopbook.numerics.real_numbers import in_a_sentence, plain_number, positive, real
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.numerics.units import characteristic_time, in_units
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class ProcessError(LoopbookError):
@@ -38,7 +41,7 @@ def checked_coefficients(values: Sequence[float], name: str) -> tuple[float, ...
     if not (type(values) is tuple and values and all(type(c) is float for c in values)):
         values = _row(values, name)
     if not all(map(math.isfinite, values)):
-        raise ProcessError(f"{name} = {values!r}: the coefficients must be finite")
+        raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be finite")
     row = list(values)
     while len(row) > 1 and not row[0]:
         del row[0]
@@ -50,11 +53,13 @@ def _row(values: Any, name: str) -> list[float]:
     array = np.atleast_1d(np.asarray(values, dtype=object))
     row = list(array)
     if not row or array.ndim > 1 or isinstance(row[0], list | tuple):
-        raise ProcessError(f"{name} = {values!r}: a row of coefficients in descending powers of s is expected")
+        raise ProcessError(
+            f"{name} = {in_a_sentence(values)}: a row of coefficients in descending powers of s is expected"
+        )
     try:
         return [float(plain_number(c)) for c in row]
     except (TypeError, OverflowError):
-        raise ProcessError(f"{name} = {values!r}: the coefficients must be real numbers") from None
+        raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be real numbers") from None
 
 
 def _roots(p: Sequence[float]) -> np.ndarray:
@@ -110,7 +115,7 @@ class Process:
         """Integrator plus dead time, G(s) = gain / (s (time_constant s + 1)) * exp(-delay s); gain in [y/(u s)]."""
         lag = real(time_constant, "time_constant", ProcessError, " s")
         if lag < 0:
-            raise ProcessError(f"time_constant = {time_constant!r} s must not be negative")
+            raise ProcessError(f"time_constant = {in_a_sentence(time_constant)} s must not be negative")
         return cls((gain,), (lag, 1.0, 0.0), delay)
 
     @classmethod
@@ -156,7 +161,7 @@ class Process:
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"
 
-    def plot(self, horizon: float | None = None) -> Any:
+    def plot(self, horizon: float | None = None) -> "Figure":
         """The unit step response as a matplotlib figure, up to the horizon [s]."""
         if horizon is None:
             horizon = self.delay * 2 + 7 * float(sum(1 / abs(p.real) for p in self.poles if p.real)) or 10.0

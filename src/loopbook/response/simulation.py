@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
 from loopbook.process.sampled import SampledProcess, held, sample
 from loopbook.process.transfer_function import Process
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Course = float | Sequence[float] | np.ndarray | Callable[[float], float]
 
@@ -89,7 +92,7 @@ class Simulation:
         all_edges = np.append(np.concatenate(edges)[order], self.t[-1])
         return Signal(all_edges, np.concatenate(rows)[order].reshape(-1, DEGREE + 1))
 
-    def plot(self) -> Any:
+    def plot(self) -> "Figure":
         """Output and input as a matplotlib figure, u as the staircase that it is."""
         y = {"output": (self.t, self.y), "reference": stairs(self.t, self.reference)}
         return shown_once(curves({"output $y$": y, "input $u$": {"u": stairs(self.t, self.u)}}, "Simulation"))

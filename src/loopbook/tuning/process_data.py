@@ -14,7 +14,7 @@ time. Data given themselves are always taken as they are.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -223,10 +223,6 @@ class ProcessData:
     def upright(self) -> Process:
         """The model, for rules that take the whole process."""
         return self._need("a process")
-
-    def with_frequency(self, data: FrequencyData) -> "ProcessData":
-        """The same with a measured ultimate point."""
-        return replace(self, frequency=data)
 
 
 _MEANS: dict[Takes, Callable[[ProcessData], tuple[dict[str, float], str]]] = {

@@ -116,11 +116,11 @@ def _filled(
 
 
 def _full(value: Any) -> str:
-    """A computed number at full precision, the same text on every run."""
+    """A computed number at full precision, the same text on every run; an integer with all its digits."""
     exact = exactly(value)
     if exact is None:
         return ""
-    if exact.denominator == 1 and abs(exact) < 10**15:
+    if exact.denominator == 1 and (abs(exact) < 10**15 or not isinstance(value, float)):
         return str(exact.numerator)
     return repr(float(exact))
 

@@ -63,7 +63,7 @@ def opening(content: Mapping[str, Any]) -> str:
     return HtmlWriter().inline(read_inline(words[: ends[-1]])) if ends else ""
 
 
-def picture(outline: Outline, content: Mapping[str, Any]) -> str:
+def front_picture(outline: Outline, content: Mapping[str, Any]) -> str:
     """The figure of the front page from the executed notebook that the outline names, as HTML.
 
     Raises UsageError where that has no such figure.

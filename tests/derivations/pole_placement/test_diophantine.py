@@ -17,7 +17,7 @@ from derivations.pole_placement.diophantine import (
     integrators,
     place_exactly,
 )
-from derivations.pole_placement.regulator_degrees import degrees
+from derivations.pole_placement.regulator_degrees import Degrees, degrees
 
 a1, a2, b3, b4, q = sp.symbols("a_1 a_2 b_3 b_4 q")
 R = sp.Rational
@@ -221,3 +221,11 @@ def test_no_static_gain():
         _ = place_exactly(1 - HALF / Z, (1 - 1 / Z) / Z, 1 - q / Z).Kr
     with pytest.raises(NoStaticGain, match="P has a root at z = 1"):
         _ = place_exactly(1 - HALF / Z, 1 / Z, 1 - 1 / Z).Kr
+
+
+@pytest.mark.parametrize(("p", "words"), [(6, "at most $"), (7, "more than $")])
+def test_why_names_the_border_from_which_p_makes_the_regulator_longer(p, words):
+    degrees = Degrees(a=2, fixed=1, b=4, p=p)
+    border = rf"n_{{a'}} + n_b - 1 = {degrees.largest_p}$"
+    assert any(f"That of $P$ is ${p}$, {words}{border}" in step for step in degrees.why())
+    assert (degrees.c > degrees.b - 1) == (p > degrees.largest_p)

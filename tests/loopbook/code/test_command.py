@@ -102,7 +102,11 @@ def test_a_design_writes_all_files_of_a_language(tmp_path):
 
 
 @pytest.mark.builds
-@pytest.mark.parametrize("output", [None, "out", "x.pdf", "my loop.pdf"], ids=str)
+@pytest.mark.parametrize(
+    "output",
+    [*(pytest.param(name, marks=pytest.mark.whole) for name in (None, "out", "x.pdf")), "my loop.pdf"],
+    ids=str,
+)
 def test_the_files_of_a_design_find_each_other_whatever_they_are_called(tmp_path, output):
     record = tmp_path / "heater 2.csv"
     record.write_bytes(RECORD.read_bytes())

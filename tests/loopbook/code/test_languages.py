@@ -116,7 +116,7 @@ def test_the_sketch_compiles_and_runs_against_a_stand_in_of_the_board(written):
     assert subprocess.run(["./a.out"], cwd=folder).returncode == 0
 
 
-@pytest.mark.parametrize("real", ["float", "double"])
+@pytest.mark.parametrize("real", [pytest.param("float", marks=pytest.mark.whole), "double"])
 def test_blark_parses_the_function_block(block, real):
     blark = pytest.importorskip("blark", reason="blark is not installed: Structured Text is parsed by one parser less")
     parsed = blark.parse_source_code(emit(block, "st", real=real)[f"{NAME}.st"])

@@ -11,6 +11,7 @@ from loopbook.design.model import ModelError
 from loopbook.design.ready import derive
 from loopbook.design.recommendation import AIMS
 from loopbook.design.study import Study
+from loopbook.identification import graphical
 from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
@@ -159,13 +160,19 @@ def test_a_record_without_a_step_is_refused_in_words(tmp_path):
         _ = Study(file).model
 
 
-def test_what_is_derived_beforehand_is_found_by_the_designs():
-    """After `derive` a design of the same kind derives nothing more."""
+def test_after_derive_a_design_derives_nothing_more(tmp_path):
     from loopbook.controllers import generated
     from loopbook.experiments import two_points
     from loopbook.identification import models
     from loopbook.tuning import migo_branch
 
     derive()
-    for cached in (generated.program_gains, two_points._formulas, models._function, migo_branch._branch_functions):
-        assert cached.cache_info().currsize, cached
+    file = tmp_path / "example.csv"
+    file.write_text(example.text(), encoding="utf-8")
+    cached = (generated.program_gains, two_points._formulas, models._function, migo_branch._branch_functions)
+    before = [f.cache_info() for f in cached]
+    Study(file).results()
+    graphical.graphical_readings(Study(file).record)
+    for f, was in zip(cached, before, strict=True):
+        now = f.cache_info()
+        assert now.misses == was.misses and now.hits > was.hits, f

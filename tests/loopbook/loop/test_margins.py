@@ -266,3 +266,12 @@ def test_the_two_sensitivities_add_up_to_one():
     assert loop.sensitivity(s) + loop.complementary_sensitivity(s) == pytest.approx(1.0, abs=1e-12)
     peak = complementary_peak(loop.transfer)
     assert abs(loop.complementary_sensitivity(1j * peak.w)) == pytest.approx(peak.value, rel=1e-9)
+
+
+@pytest.mark.parametrize("T", [1.0, 1e-6, 3e7])
+@pytest.mark.parametrize("num, den, K", [((1, 1), (1, -1), 3), ((2, 1), (1, 1), 0.6), ((2, 1), (1, 1), 0.5)])
+def test_a_loop_gain_that_stays_above_one_bears_no_dead_time(num, den, K, T):
+    """Neutral: |L| >= 1 at infinite frequency, so that any dead time brings roots to the right or to the axis."""
+    process = Process([num[0] * T, num[1]], [den[0] * T, den[1]])
+    assert Loop(process, K).margins().delay == 0.0
+    assert not Loop(process.delayed(1e-9 * T), K).is_stable

@@ -323,3 +323,14 @@ def test_an_unstable_loop_can_be_watched():
     y = UNSTABLE.step(horizon=40).y
     assert np.isfinite(y(np.linspace(0, 40, 50))).all()
     assert y.peak()[1] ** 2 > 4
+
+
+def test_waiting_for_rest_ends_where_rounding_is_left():
+    """Poles up to 2,500 rad/s with a dead time of 6 s: a rest of 1e-11 does not make the horizon grow for ever."""
+    den = np.polymul(np.polymul([1, 2490.0], [1, 58.0]), np.polymul(np.polymul([1, 24.0], [1, 4.0]), [1, 4.2, 0.0]))
+    loop = Loop(Process([9.3, 11.1], den, 5.8), PidStandard(181000.0, 7.8, 0.39, 0.13, 0.0, N=13))
+    response = loop.step()
+    assert response.horizon <= 2 * loop.settling_horizon()
+    assert response.iae() == pytest.approx(
+        response.error.until(0.9 * response.horizon).integral_of_magnitude(), rel=1e-8
+    )

@@ -5,9 +5,9 @@ import pytest
 
 from loopbook.controllers.pid_forms import PidStandard
 from loopbook.controllers.rst import Rst
+from loopbook.loop import sampled_delay_margin
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
-from loopbook.loop.sampled_delay_margin import delay_margin
 from loopbook.process.transfer_function import Process
 
 SERVO = Process([2], [1, 3, 2, 0])
@@ -15,6 +15,11 @@ SERVO = Process([2], [1, 3, 2, 0])
 
 def gain(K, h):
     return Rst((1,), (K,), (K,), h)
+
+
+def delay_margin(process, regulator):
+    loop = SampledLoop(process, regulator)
+    return sampled_delay_margin.delay_margin(process, regulator, lambda more: loop.with_delay(more).is_stable)
 
 
 def poles_outside(loop):
@@ -122,3 +127,33 @@ def test_all_margins_of_a_fast_sampled_pi_tend_to_the_continuous_ones(process, h
     for mine, theirs in ((found.gain, limit.gain), (found.phase, limit.phase), (found.Ms.value, limit.Ms.value)):
         assert mine == pytest.approx(theirs, rel=1.2 * h)
     assert found.delay == pytest.approx(limit.delay, rel=h)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_process_that_acts_at_once_jumps_with_the_whole_samples(seed):
+    """The loop may turn unstable where a dead time of whole samples grows by nothing: no root passes the circle."""
+    rng = np.random.default_rng(seed)
+    order = int(rng.integers(0, 4))
+    num, den = (np.poly(-np.exp(rng.uniform(-2, 2, order))) for _ in range(2))
+    process = Process(
+        np.atleast_1d(num) * np.exp(rng.uniform(-2, 1)), np.atleast_1d(den), float(rng.choice([0.0, 0.1, 0.37]))
+    )
+    g = float(np.exp(rng.uniform(-3, 0)))
+    loop = SampledLoop(process, Rst((1, -1), (g,), (g,), 0.1) if seed % 2 else gain(g, 0.1))
+    if not loop.is_stable:
+        return
+    margin = loop.margins().delay
+    just_after = np.arange(40) * 0.1 - process.delay % 0.1 + 1e-7
+    tried = np.concatenate([np.arange(0, 4, 0.01), just_after[just_after > 0]])
+    unstable = [more for more in tried if not loop.with_delay(more).is_stable]
+    if unstable:
+        assert min(unstable) - 0.0101 < margin <= min(unstable) + 1e-9
+    else:
+        assert margin > tried.max() - 0.0101
+
+
+def test_the_jump_by_value():
+    """(s + 2)/(s + 1) with a dead time of one sample under an integrator: unstable just beyond six samples."""
+    loop = SampledLoop(Process([1, 2], [1, 1], 0.05), Rst((1, -1), (0.2,), (0.2,), 0.05))
+    assert loop.margins().delay == pytest.approx(0.25, abs=1e-12)
+    assert loop.with_delay(0.25).is_stable and not loop.with_delay(0.25 + 1e-6).is_stable

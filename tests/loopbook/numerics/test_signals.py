@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 from numpy.polynomial import legendre
 
 from loopbook.numerics.signals import HorizonError, Signal
+from loopbook.numerics.step_response import open_loop_step
+from loopbook.process.transfer_function import Process
 
 
 def sampled(function, edges, degree=24):
@@ -37,7 +39,6 @@ def test_integrals_of_a_sine():
 def test_a_jump_counts_from_its_instant_on_and_is_a_root_of_what_it_crosses():
     stairs = Signal(np.array([1.0, 2.0, 3.0]), np.array([[1.0], [-2.0]]))
     assert stairs([0.5, 1.0, 1.999, 2.0, 3.0]).tolist() == [0, 1, 1, -2, -2]
-    assert stairs.limit_before(2.0) == 1
     assert stairs.roots(0.5).tolist() == [1, 2]
     assert stairs.peak() == (2, -2)
     assert stairs.integral_of_magnitude() == 3
@@ -90,3 +91,17 @@ def test_roots_against_those_of_each_polynomial(seed, count, decay, level):
     assert inside == pytest.approx(sorted(expected), abs=1e-8)
     jumps = [j for j in range(1, 6) if (rows[j - 1].sum() - level) * (rows[j] @ (-1.0) ** np.arange(count) - level) < 0]
     assert set(jumps) <= set(found)
+
+
+def test_a_delay_that_swallows_cells_leaves_them_out():
+    signal = Signal(np.array([0.0, 1e-12, 1.0]), np.array([[1.0, 0.0], [2.0, 0.5]]))
+    late = signal.delayed(1e6)
+    assert len(late.coefficients) == 1 and np.isfinite(late.derivative().coefficients).all()
+    assert late(1e6 + 0.5) == pytest.approx(float(signal(0.5)), rel=1e-11) and late(5.0) == 0.0
+
+
+@pytest.mark.parametrize("delay", [0.1, 1.1997736253208586, 3.1e3])
+def test_no_cell_of_a_step_response_is_a_sliver(delay):
+    for horizon in np.linspace(0.5, 5, 200):
+        response = open_loop_step(Process([0.37, 1.74], [1, 16.3, 271.7]), horizon).delayed(delay)
+        assert response.lengths.min() > 1e-7 * horizon

@@ -1,6 +1,9 @@
 """The tuning rules as one family: every rule has one form, follows its process, and is found by its name."""
 
 import math
+import re
+import textwrap
+from pathlib import Path
 
 import pytest
 
@@ -23,6 +26,7 @@ from loopbook.process.transfer_function import Process
 from loopbook.tuning import RULES, RuleDoesNotApply, Tuning, UnknownRule, tune
 from loopbook.tuning.process_data import ProcessData
 
+ROOT = Path(__file__).parents[3]
 STABLE = Process([2], [40, 14, 1], 3)
 BALANCED = Process([2], [40, 14, 1], 10)  # kappa > 0.2: the frequency rules cover it
 INTEGRATING = Process([0.2], [4, 1, 0], 3)
@@ -135,7 +139,7 @@ def test_the_half_rule_of_four_equal_lags():
 
 def test_what_the_half_rule_does_not_cover_is_refused_with_the_way_out():
     for process in (Process([1], [1, 0.2, 1], 1), Process([1, 1], [2, 3, 1], 1)):
-        with pytest.raises(RuleDoesNotApply, match=r"use loopbook\.experiments\.step\.exact\(process\)"):
+        with pytest.raises(RuleDoesNotApply, match=r"use loopbook\.experiments\.step\.step_data\(process\)"):
             tune(process, "simc")
         assert tune(step.step_data(process), "simc").K > 0
 
@@ -224,7 +228,7 @@ def test_a_phase_margin_is_had_at_its_frequency():
 
 
 def test_a_rule_is_one_file(tmp_path, monkeypatch):
-    """A file in the folder of the derivations is a rule of the family, with its flags, and of the design."""
+    """The file that CONTRIBUTING shows, in the folder of the derivations, is a rule of the family and of the design."""
     import importlib
     import sys
 
@@ -234,7 +238,9 @@ def test_a_rule_is_one_file(tmp_path, monkeypatch):
     from loopbook.design.model import Model
     from loopbook.tuning import registry
 
-    (tmp_path / "cohen_coon.py").write_text(COHEN_COON, encoding="utf-8")
+    how_to = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("## How to add a tuning rule")[2]
+    cohen_coon = textwrap.dedent(re.search(r"```python\n(.*?)```", how_to, re.DOTALL)[1])
+    (tmp_path / "cohen_coon.py").write_text(cohen_coon, encoding="utf-8")
     monkeypatch.setattr(folder, "__path__", [*folder.__path__, str(tmp_path)])
     importlib.invalidate_caches()
     try:
@@ -249,21 +255,3 @@ def test_a_rule_is_one_file(tmp_path, monkeypatch):
         sys.modules.pop("derivations.tuning.cohen_coon", None)
         for cached in (published.catalogue, registry.rules):
             cached.cache_clear()
-
-
-COHEN_COON = '''
-"""Cohen and Coon (1953): a quarter decay ratio for a lag with dead time."""
-
-from sympy import Rational
-
-from derivations.tuning.letters import T_0, T, k
-from derivations.tuning.rule import Rule
-from derivations.tuning.takes import Takes
-
-
-def rules():
-    r = T_0 / T
-    K, Ti = (Rational(9, 10) + r / 12) / (k * r), T_0 * (30 + 3 * r) / (9 + 20 * r)
-    source, aim = "G. H. Cohen and G. A. Coon, Trans. ASME 75 (1953)", "load: a quarter decay ratio"
-    return (Rule("cohen-coon-pi", "Cohen-Coon, PI", Takes.STEP, (k, T, T_0), K, Ti, source=source, year=1953, aim=aim),)
-'''

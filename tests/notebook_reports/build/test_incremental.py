@@ -112,7 +112,7 @@ def test_a_module_saved_while_a_notebook_runs_is_not_taken_for_the_one_that_ran(
 def test_prose_is_rendered_without_running(two, monkeypatch):
     from notebook_reports.run import run
 
-    monkeypatch.setattr(run, "run", None)
+    monkeypatch.setattr(run, "run_notebook", None)
     two.write("a/alone", "# Another title", "> and a paragraph", "1 + 1")
     assert two.build().code == 0
     assert "a/alone.html" in two.exported and "(exported again: its text)" in two.said
@@ -127,7 +127,7 @@ def test_prose_is_rendered_without_running(two, monkeypatch):
 def test_a_template_exports_again_without_running(two, monkeypatch):
     from notebook_reports.run import run
 
-    monkeypatch.setattr(run, "run", None)
+    monkeypatch.setattr(run, "run_notebook", None)
     of_export = fingerprint.of_export
     name = "notebook_reports/export/templates/report.typ.j2"
     monkeypatch.setattr(fingerprint, "of_export", lambda *a: {**of_export(*a), name: "changed"})

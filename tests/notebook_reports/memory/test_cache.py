@@ -31,7 +31,7 @@ def pretend(source, name, project, parameters=None, timeout=600):
 @pytest.fixture
 def built(bench, monkeypatch):
     """Three notebooks, built; `right` holds what the reports have to be."""
-    monkeypatch.setattr(runner, "run", pretend)
+    monkeypatch.setattr(runner, "run_notebook", pretend)
     for id in IDS:
         bench.write(id, f"# {id}", "1 + 1")
     assert bench.build(formats=("html", "ipynb")).code == 0

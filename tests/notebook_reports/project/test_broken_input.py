@@ -70,7 +70,7 @@ TOLERATED = {
 
 @pytest.mark.parametrize("what", BROKEN)
 def test_a_broken_notebook_is_one_failure_and_the_others_are_built(bench, monkeypatch, what):
-    monkeypatch.setattr(runner, "run", lambda source, *_: runner.Run(source.content, 0.1))
+    monkeypatch.setattr(runner, "run_notebook", lambda source, *_: runner.Run(source.content, 0.1))
     bench.write("a/good", "# Good", "1")
     text = BROKEN[what] if isinstance(BROKEN[what], str) else json.dumps(BROKEN[what])
     (bench.root / "notebooks/a/bad.ipynb").write_text(text)

@@ -16,6 +16,7 @@ from functools import cache
 from typing import Any
 
 from derivations.programs import program_order
+from loopbook.numerics.real_numbers import Number
 
 PLANT_INPUTS = ("x1", "x2", "u", "k", "T1", "T2", "h")
 REGULATOR_INPUTS = ("e", "last", "total", "Kp", "Ti", "Td", "h")
@@ -31,17 +32,17 @@ class CProgram:
     or the limits are reversed.
     """
 
-    k: Any
-    T1: Any
-    T2: Any
-    Kp: Any
-    Ti: Any
-    Td: Any
-    u_min: Any
-    u_max: Any
-    h: Any
-    t_end: Any
-    level: Any
+    k: Number
+    T1: Number
+    T2: Number
+    Kp: Number
+    Ti: Number
+    Td: Number
+    u_min: Number
+    u_max: Number
+    h: Number
+    t_end: Number
+    level: Number
 
     def __post_init__(self) -> None:
         for name in ("T1", "T2", "Ti", "h"):
@@ -50,7 +51,7 @@ class CProgram:
         if not self.u_min < self.u_max:
             raise ValueError(f"u_min = {self.u_min} must lie below u_max = {self.u_max}")
 
-    def cast(self, number: Callable) -> dict[str, Any]:
+    def cast(self, number: Callable) -> dict[str, Number]:
         """Every field in the arithmetic of the run; a decimal passes through double precision as a C literal does."""
         exact = number is Fraction
         return {n: number(v) if exact else number(float(v)) for n, v in vars(self).items()}
@@ -93,10 +94,10 @@ def closed_loop(
     *,
     anti_windup: bool = True,
     first_difference: bool = False,
-    total: Any = 0,
-    x1: Any = 0,
-    u: Any = 0,
-    setpoint: Callable[[float], Any] | None = None,
+    total: Number = 0,
+    x1: Number = 0,
+    u: Number = 0,
+    setpoint: Callable[[float], Number] | None = None,
 ) -> list[tuple]:
     """Rows (t, x1, x2, u, w) of the closed loop after a step of the set-point.
 

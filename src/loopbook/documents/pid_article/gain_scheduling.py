@@ -8,9 +8,9 @@ set-point are segment borders.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,9 @@ from derivations.errors import LoopbookError
 from derivations.plants import gain_scheduling as g
 from loopbook.experiments.data import StepData
 from loopbook.experiments.two_points import PARTS, fit
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 STRUCTURES = ("inside", "outside")
 ACTS_ON = ("error", "measurement")
@@ -37,9 +40,9 @@ class Schedule:
     (2.88, 1.1, 0.275)
     """
 
-    K: Any
-    Ti: Any
-    Td: Any
+    K: "Expr | float"
+    Ti: "Expr | float"
+    Td: "Expr | float"
 
     @classmethod
     def fixed(cls, K: float, Ti: float, Td: float) -> "Schedule":
@@ -57,16 +60,11 @@ class Schedule:
         if len(outputs) != 3 or len(settings) != 3 or len(set(outputs)) != 3:
             raise ScheduleError(f"a parabola needs three different outputs with settings, got {list(outputs)}")
         columns = zip(*settings, strict=True)
-        exact = [sympy.nsimplify(x, rational=True) for x in outputs]
-        return cls(
-            *(
-                g.parabola([(x, sympy.nsimplify(v, rational=True)) for x, v in zip(exact, c, strict=True)])
-                for c in columns
-            )
-        )
+        rational = partial(sympy.nsimplify, rational=True)
+        return cls(*(g.parabola(list(zip(map(rational, outputs), map(rational, c), strict=True))) for c in columns))
 
     @cached_property
-    def _function(self) -> Callable[..., Any]:
+    def _function(self) -> Callable[..., tuple[float, float, float]]:
         import sympy
 
         return sympy.lambdify(g.y, [sympy.sympify(e, strict=True) for e in (self.K, self.Ti, self.Td)], modules="math")

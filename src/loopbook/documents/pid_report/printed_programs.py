@@ -6,6 +6,7 @@ from typing import Any
 from derivations.programs import pid_code as code
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings
+from loopbook.numerics.real_numbers import Number
 
 FIGURES = ("4.7", "4.9", "4.10", "4.11", "4.12", "4.13", "shortest")
 
@@ -46,7 +47,7 @@ class ProgramController:
         self._known = numbers | generated.program_gains(self.figure)(**numbers) | self._replaced
         self._known |= {"u_low": s.u_low, "u_high": s.u_high}
 
-    def step(self, y: Any, y_sp: Any) -> Any:
+    def step(self, y: Number, y_sp: Number) -> Number:
         """One pass: the output for this sample."""
         result = self._pass(self._known | self.states | {"y_sp": y_sp, "y": y})
         self.u, self.v = result["u"], result["v"]

@@ -136,23 +136,6 @@ def compile_pdf(source: str, files: dict[str, bytes]) -> Compiled:
     return Compiled(pdf, tuple(Place(n[1], int(n[2]), float(n[3])) for n in noted if n[0] == "place"))
 
 
-def picture_pdf(svg: bytes) -> bytes:
-    """A drawing as a PDF page of its own size, its text as text. Raises TypstFailed."""
-    import typst
-
-    page = b'#set page(width: auto, height: auto, margin: 0pt)\n#image("picture.svg")'
-    with tempfile.TemporaryDirectory(prefix="pdf-", dir=runtime.folder()) as folder:
-        (Path(folder) / "picture.svg").write_bytes(svg)
-        (Path(folder) / "main.typ").write_bytes(page)
-        try:
-            compiler = typst.Compiler(str(Path(folder) / "main.typ"), root=folder, font_paths=fonts())
-            pdf = compiler.compile(timestamp=int(EPOCH))
-        except typst.TypstError as error:
-            raise TypstFailed(_diagnostics(error.diagnostic, error.message, {})) from None
-    assert isinstance(pdf, bytes), "a PDF is one piece"
-    return pdf
-
-
 def _diagnostics(text: str, message: str, above: dict[str, int]) -> list[Diagnostic]:
     """above: by file the lines of the source before it."""
     found = []

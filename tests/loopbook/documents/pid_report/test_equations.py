@@ -3,7 +3,7 @@
 import pytest
 import sympy
 
-from derivations.pid.pid_updates import saturation_residuals
+from derivations.pid.pid_updates import saturated, saturated_by_cases
 from loopbook.documents import open as documents
 from loopbook.documents.equation_numbers import EquationError, agrees, comparisons, derived, eq, read
 from loopbook.documents.labels import Labels
@@ -36,7 +36,11 @@ def test_misprinted_equation(label):
 
 
 def test_saturation_by_cases_is_min_and_max():
-    assert saturation_residuals() == (0,) * 5, "eq. 4.2"
+    """For v below, at, between, at and above the limits."""
+    low, inside, beyond = sympy.Symbol("low", real=True), *sympy.symbols("inside beyond", positive=True)
+    high = low + 2 * inside
+    for value in (low - beyond, low, low + inside, high, high + beyond):
+        assert saturated_by_cases(value, low, high) == saturated(value, low, high), "eq. 4.2"
 
 
 def test_eq_shows_the_derived_form_under_its_number():

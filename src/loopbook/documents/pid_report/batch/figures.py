@@ -1,7 +1,7 @@
 """Settings over the optimum against the relative dead time, one point a process; optimal loops beside the circle."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,12 +15,15 @@ from loopbook.plots.nyquist import nyquist_figure
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo import circle
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 MARKERS = ("o", "s", "^", "v", "D", "P", "X", "*", "<")
 DECADES = 8.0  # from this spread on the axis is logarithmic
 NAMES = {"K": "$K/K_{MIGO}$", "Ti": "$T_i/T_{i,MIGO}$", "Td": "$T_d/T_{d,MIGO}$", "ki": "$k_i/k_{i,MIGO}$"}
 
 
-def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: float = 0.15) -> Any:
+def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: float = 0.15) -> "Figure":
     """One panel a parameter: its ratio to the optimum, grey band 1 +- `band`, families by marker."""
     import matplotlib.pyplot as plt
 
@@ -45,14 +48,14 @@ def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: fl
     return fig
 
 
-def joint_circle_figure(process: Process, regulators: Mapping[str, Any], M: float, title: str) -> Any:
+def joint_circle_figure(process: Process, regulators: Mapping[str, Any], M: float, title: str) -> "Figure":
     """The Nyquist curves of a process under several regulators, with the joint circle of M."""
     w = frequency_at(process, -2.5) * np.geomspace(1e-2, 1e2, 4000)
     curves = {name: Loop(process, regulator).transfer(1j * w) for name, regulator in regulators.items()}
     return nyquist_figure(curves, circle(M), f"joint circle, $M = {M:g}$", title)
 
 
-def gain_figure(tau: Any, gain: Any, title: str) -> Any:
+def gain_figure(tau: Any, gain: Any, title: str) -> "Figure":
     """The integral gain of PID over that of PI against the relative dead time."""
     import matplotlib.pyplot as plt
 
