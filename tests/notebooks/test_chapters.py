@@ -49,7 +49,11 @@ LET_OFF = {  # by chapter: the rules that do not apply to it, with the reason
         "goes_on": "it goes on in the reader's plant",
     },
 }
-ALL = sorted(p.relative_to(FOLDER).with_suffix("").as_posix() for p in FOLDER.rglob("[!.]*.ipynb"))
+ALL = sorted(
+    p.relative_to(FOLDER).with_suffix("").as_posix()
+    for p in FOLDER.rglob("[!.]*.ipynb")
+    if p.parent.name != "exercises"
+)
 ALL = [name for name in ALL if ".ipynb_checkpoints" not in name and not name.startswith("exercises/")]
 DONE = [name for name in ALL if name not in NOT_YET]
 NO_MEASURES = re.compile(

@@ -13,7 +13,7 @@ from notebook_reports.project.parameters import ParameterError, read_parameters
 from notebook_reports.project.source import Source, read_source
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
-NOTEBOOKS = sorted(p for p in FOLDER.rglob("*.ipynb") if ".ipynb_checkpoints" not in p.parts)
+NOTEBOOKS = sorted(p for p in FOLDER.rglob("*.ipynb") if not {".ipynb_checkpoints", "exercises"} & set(p.parts))
 LINES_OF_A_CELL = 12
 LINES_OF_A_FUNCTION = 5
 WORDS_PER_LINE = 5

@@ -8,10 +8,11 @@ import sympy
 
 from derivations.algebra.delay_polynomials import K, Z, in_delays, polynomial
 from derivations.pole_placement.diophantine import PolePlacement
-from loopbook.documents.double_tank.long_fractions import as_printed, at, read_back
+from loopbook.documents.double_tank.long_fractions import as_printed, read_back, value_at
 from loopbook.documents.printed_formulas import formulas
 from notebook_reports.ledger.document import Document
 from notebook_reports.ledger.verdicts import rounds_to
+from notebook_reports.ledger.words import shown as so  # noqa: F401 (chapters take it from here)
 
 REGULATOR = ("K_r", "c_1", "c_2", "c_3", "d_0", "d_1", "d_2")
 
@@ -111,7 +112,7 @@ def typed_in(document: Document) -> dict[str, dict[str, Fraction]]:
     text = document.given("Appendix, d_iterativ")
     polynomials = {name: read_back(text, f"d_iterativ-{name.replace('_', '')}") for name in REGULATOR}
     poles = ("0.3", "0.5", "0.7")
-    return {name: {q: at(polynomial, Fraction(q)) for q in poles} for name, polynomial in polynomials.items()}
+    return {name: {q: value_at(polynomial, Fraction(q)) for q in poles} for name, polynomial in polynomials.items()}
 
 
 def typed_in_agree(document: Document) -> dict[str, bool]:
