@@ -10,6 +10,9 @@ BEGUN = time.perf_counter()
 
 
 def main(path: Path, form: str) -> dict[str, object]:
+    from notebook_reports.run.quick_imports import import_nbformat
+
+    import_nbformat()
     import nbformat
 
     from notebook_reports.export.errors import ExportError
