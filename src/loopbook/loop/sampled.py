@@ -164,7 +164,7 @@ def _sum(n: np.ndarray, d: np.ndarray) -> np.ndarray:
 
 
 def _inside(p: np.ndarray, size: float) -> bool | None:
-    """Do all roots lie in the unit circle, by Schur's and Cohn's recursion? None where its rounding leaves that open, or
+    """Do all roots lie in the unit circle, by Schur's and Cohn's recursion? None where rounding leaves that open, or
     where the polynomial is long.
 
     p: descending coefficients; size: what they are made of at most, so that their rounding is a fraction of that.
