@@ -20,7 +20,7 @@ DEGREE = 24
 REACH = 8.0
 MOST_CELLS = 200_000
 MANY_STATES = 9  # beyond, p systems of n cost less than one of p n
-SLIVER = 1e-9  # of the whole: a last cell so short joins the one before
+SLIVER = 0.02  # of the cell before: a last cell so short joins it
 
 
 class ResponseError(LoopbookError):
@@ -101,8 +101,8 @@ def graded_mesh(A: np.ndarray, length: float) -> np.ndarray:
     """Cells on [0, length]: as long as the fastest mode that has not yet died out allows."""
     modes = np.linalg.eigvals(A) if len(A) else np.zeros(0)
     modes = modes[abs(modes) > 0]
-    edges = [0.0]
-    while edges[-1] < length * (1 - SLIVER):
+    edges, step = [0.0], 0.0
+    while length - edges[-1] > SLIVER * (step or length):
         alive = abs(modes[-modes.real * edges[-1] < 40])
         step = REACH / alive.max() if alive.size else length
         if len(edges) > MOST_CELLS:

@@ -200,7 +200,7 @@ class Signal:
             trimmed = legendre.legtrim(row, 1e-16 * np.abs(row).max())
             x = np.atleast_1d(legendre.legroots(trimmed))
             x = x[(abs(x.imag) < 1e-7) & (abs(x.real) <= 1 + 1e-10)].real
-            slope = legendre.legder(trimmed) if len(trimmed) > 1 else np.zeros(1)
+            slope = slopes_of(len(trimmed)) @ trimmed
             for _ in range(2):
                 rise = legendre.legval(x, slope)
                 safe = np.where(rise == 0, np.inf, rise)
