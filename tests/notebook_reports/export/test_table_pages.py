@@ -3,13 +3,13 @@
 import re
 
 import pytest
+from notebook_reports.export.write.page_words import in_the_text, text_of
+from notebook_reports.export.write.pdf_text import PdfText
 
 from notebook_reports.display import Table
 from notebook_reports.export.exporters.choose import export
 from notebook_reports.export.model import plain
 from notebook_reports.export.read.tables import from_data
-from notebook_reports.export.write.page_words import in_the_text, text_of
-from notebook_reports.export.write.pdf_text import PdfText
 
 SAID = "The level of the lower tank follows that of the upper one, later and more slowly, and never faster than that. "
 
