@@ -233,7 +233,7 @@ def test_a_closed_loop_as_fast_as_its_dead_time_allows():
 
 def test_dead_time_alone_is_left_to_integral_action():
     for known in (StepData(2, 0, 3), Process([2], [1], 3)):
-        with pytest.raises(RuleDoesNotApply, match="dead time alone.*PidParallel"):
+        with pytest.raises(RuleDoesNotApply, match=r"dead time alone.*PidParallel"):
             tune(known, "simc-pi")
 
 

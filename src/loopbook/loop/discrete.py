@@ -12,8 +12,8 @@ import numpy as np
 from loopbook.controllers.rst import Rst
 from loopbook.loop.circle_margins import circle_margins
 from loopbook.loop.frequency_curves import of_circle
+from loopbook.loop.inside_circle import is_stable_in_z, row_sum
 from loopbook.loop.margins import Margins
-from loopbook.loop.sampled import BORDER, CROWDED, FEW
 from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
@@ -85,16 +85,8 @@ class DiscreteLoop(ShownLoop):
         Where poles crowd around the circle they are counted by the turning of the loop transfer, which needs no root of
         a long polynomial.
         """
-        n, d = self.transfer.num, self.transfer.den
-        largest = float(abs(self.poles).max(initial=0.0))
-        if len(n) + len(d) <= FEW and abs(largest - 1) > CROWDED:
-            return largest < 1
-        if not any(n):
-            return bool((abs(self.on_circle.poles) < 1 - BORDER).all())
-        try:
-            return self.on_circle.roots_outside() == 0
-        except ValueError:
-            return False
+        n, d = np.asarray(self.transfer.num), np.asarray(self.transfer.den)
+        return is_stable_in_z(n, d, lambda: self.on_circle)
 
     def closed(self, source: str = "reference", output: str = "y") -> DiscreteProcess:
         """From "reference", "load" (at the plant's input) or "noise" to "y" or "u"."""
@@ -102,9 +94,7 @@ class DiscreteLoop(ShownLoop):
             raise LoopError(f"from {source!r} to {output!r}: from {', '.join(SOURCES)}, to {' or '.join(OUTPUTS)}")
         c, B, A = self.polynomials, self._plant.num, self._plant.den
         n, d = self.transfer.num, self.transfer.den
-        below = np.zeros(max(len(n), len(d)))
-        below[: len(n)] += n
-        below[: len(d)] += d
+        below = row_sum(np.asarray(n), np.asarray(d))
         above = {
             ("reference", "y"): np.convolve(c.T, B),
             ("reference", "u"): np.convolve(c.T, A),

@@ -14,6 +14,7 @@ import numpy as np
 from loopbook.controllers.rst import Rst, zeros_of
 from loopbook.loop.circle_margins import circle_margins
 from loopbook.loop.frequency_curves import of_circle
+from loopbook.loop.inside_circle import is_stable_in_z, row_sum
 from loopbook.loop.margins import Margins
 from loopbook.loop.sampled_delay_margin import delay_margin
 from loopbook.loop.shown_loop import ShownLoop, said_of
@@ -25,9 +26,6 @@ from loopbook.process.near_one import zeros_near_one
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
-
-BORDER = 1e-9
-FEW, CROWDED = 40, 0.05
 
 
 @dataclass(frozen=True, repr=False)
@@ -56,10 +54,7 @@ class SampledLoop(ShownLoop):
     def poles(self) -> np.ndarray:
         """The zeros of A R + B S, the loop's poles in the z plane; those at the origin left out."""
         n, d = self.transfer
-        total = np.zeros(max(len(n), len(d)))
-        total[: len(n)] += n
-        total[: len(d)] += d
-        return np.roots(total).astype(complex)
+        return np.roots(row_sum(n, d)).astype(complex)
 
     @cached_property
     def is_stable(self) -> bool:
@@ -68,17 +63,7 @@ class SampledLoop(ShownLoop):
         Where poles crowd around the circle, as under fast sampling and long dead times, they are counted by the turning
         of the loop transfer, which needs no root of a long polynomial.
         """
-        n, d = self.transfer
-        if len(d) + len(n) <= FEW:
-            largest = float(abs(self.poles).max(initial=0.0))
-            if abs(largest - 1) > CROWDED:
-                return largest < 1
-        if not n.any():
-            return bool((abs(self.on_circle.poles) < 1 - BORDER).all())
-        try:
-            return self.on_circle.roots_outside() == 0
-        except ValueError:
-            return False
+        return is_stable_in_z(*self.transfer, lambda: self.on_circle)
 
     def with_delay(self, more: float) -> "SampledLoop":
         """The same regulator on a process with `more` seconds of dead time added."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.multiple_roots import put_together
+from loopbook.numerics.multiple_roots import roots_of
 from loopbook.numerics.real_numbers import in_a_sentence, plain_number
 from loopbook.numerics.units import characteristic_time, in_units
 
@@ -46,15 +46,14 @@ def _row(values: Any, name: str) -> list[float]:
         raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be real numbers") from None
 
 
-def roots_of(p: Sequence[float]) -> np.ndarray:
+def roots_in_own_time(p: Sequence[float]) -> np.ndarray:
     """The roots of a row, complex, found in its own unit of time; those that rounding split are put together.
 
-    >>> roots_of((4.0, 0.0, 1.0)).round(9).tolist()
-    [0.5j, -0.5j]
+    >>> roots_in_own_time((4.0, 0.0, 1.0)).imag.tolist()
+    [0.5, -0.5]
     """
     time = characteristic_time((1.0,), p, 0.0)
-    inside = in_units(p, time)
-    return put_together(inside, np.roots(inside)) / time
+    return roots_of(in_units(p, time)) / time
 
 
 def over_one_denominator(first: Sequence[float], second: Sequence[float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

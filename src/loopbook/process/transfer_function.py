@@ -27,7 +27,7 @@ from loopbook.process import formulas
 from loopbook.process.algebra import Fraction, TransferAlgebra, added
 from loopbook.process.horizon import default_horizon
 from loopbook.process.interchange import Interchange
-from loopbook.process.rows import ProcessError, checked_coefficients, roots_of
+from loopbook.process.rows import ProcessError, checked_coefficients, roots_in_own_time
 
 PAST_THE_END = 1e-9
 """Of a horizon: a response that jumps at its end has jumped there."""
@@ -178,12 +178,12 @@ class Process(_Transfer, Interchange):
     @cached_property
     def poles(self) -> np.ndarray:
         """The roots of den, complex, shape (order,)."""
-        return roots_of(self.den)
+        return roots_in_own_time(self.den)
 
     @cached_property
     def zeros(self) -> np.ndarray:
         """The roots of num, complex."""
-        return roots_of(self.num)
+        return roots_in_own_time(self.num)
 
     def step(self, times: Any, amplitude: float = 1.0) -> np.ndarray:
         """The response to a step of the input at t = 0 from rest, exact to rounding, at any `times` [s].

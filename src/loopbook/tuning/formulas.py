@@ -80,7 +80,8 @@ def _positive(rule: Rule, values: Mapping[str, float], defaulted: Collection[str
             )
         at_once = name == "closed" and values.get(name) == 0 and max(values.get("L", 0), values.get("L1", 0)) > 0
         if name in asked and not (at_once or (math.isfinite(values[name]) and values[name] > 0)):
-            raise RuleDoesNotApply(f"{name} = {values[name]:g} must be a positive number{' (or 0 beside a dead time)' if name == 'closed' else ''}")
+            zero = " (or 0 beside a dead time)" if name == "closed" else ""
+            raise RuleDoesNotApply(f"{name} = {values[name]:g} must be a positive number{zero}")
     if any(name in asked and values[name] == 0 and "closed" not in asked for name in ("L", "L1")):
         raise RuleDoesNotApply(
             "without dead time (L = 0) its gain is infinite: the process is a pure lag; give the dead "

@@ -126,7 +126,7 @@ def test_the_transfer_function_in_z():
         (lambda: zero_order_hold(S / (S + 1), 1), "strictly proper"),
         (lambda: zero_order_hold(sp.exp(-S) / (S + 1), 1), "give the dead time as whole and part"),
         (lambda: zero_order_hold(1 / (S**5 + S + 1), 1), "factors of degree 1 and 2"),
-        (lambda: zero_order_hold(1 / (S**3 + sp.Symbol("x") * S + 1), 1), r"G = 1/\(s\*\*3 \+ s\*x \+ 1\)"),
+        (lambda: zero_order_hold(1 / (S**3 + sp.Symbol("x") * S + 1), 1), r"G = 1/\(x\*s \+ s\*\*3 \+ 1\)"),
         (lambda: dead_time_in_samples(sp.Symbol("L"), 1), "must be an exact number"),
         (lambda: dead_time_in_samples(-1, 1), "cannot be negative"),
     ],
