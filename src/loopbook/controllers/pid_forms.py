@@ -18,6 +18,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.controllers.pid_formulas import parallel_formula, series_formula, standard_formula
 from loopbook.controllers.regulator import Regulator
+from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number
 
 
@@ -77,6 +78,11 @@ class _Form:
         """
         regulator = self.regulator()
         return regulator.S, regulator.R
+
+    @property
+    def fraction(self) -> tuple[ExponentialPolynomial, ExponentialPolynomial]:
+        """What stands for it in products and sums with transfer functions: the feedback path C(s) = -u/y."""
+        return self.regulator().fraction
 
     def reference_transfer(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """(num, den) of the path from the reference, u/r."""

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.numerics import polynomial_text
+from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number
 from loopbook.process import formulas
 from loopbook.process.transfer_function import Process, ProcessError, checked_coefficients
@@ -79,6 +80,11 @@ class Regulator:
 
     def __repr__(self) -> str:
         return f"Regulator({', '.join(f'{n}={formulas.short_row(getattr(self, n))}' for n in 'TSR')})"
+
+    @property
+    def fraction(self) -> tuple[ExponentialPolynomial, ExponentialPolynomial]:
+        """(S, R), which stands for it in products and sums with transfer functions: the feedback path -u/y."""
+        return ExponentialPolynomial.of(self.S), ExponentialPolynomial.of(self.R)
 
     def feedback(self, s: Any) -> Any:
         """S/R at complex s: from the measurement, with the sign turned, to u."""

@@ -4,15 +4,20 @@ from dataclasses import dataclass
 from typing import Any
 
 from loopbook.loop import circle_margins, margins
+from loopbook.loop.cascade import CascadeLoop
 from loopbook.loop.continuous import Loop
 from loopbook.loop.discrete import DiscreteLoop
+from loopbook.loop.feedforward import FeedforwardLoop
+from loopbook.loop.general import GeneralLoop, ratio_crossovers, strictly_proper
 from loopbook.loop.margins import GainCrossover, PhaseCrossover
 from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.stability import is_stable
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.plots.short_repr import ShortRepr
+from loopbook.process.algebra import TransferAlgebra
 from loopbook.process.discrete import DiscreteProcess
+from loopbook.process.sampled import SampledProcess
 from loopbook.process.transfer_function import Process
 
 
@@ -46,7 +51,7 @@ class Crossovers(ShortRepr, ShownAsTable):
 def crossovers(system: Any) -> Crossovers:
     """Where the gain passes 1 and the phase -180 degrees, of a stable or an unstable loop.
 
-    system: a `Loop`, `SampledLoop` or `DiscreteLoop`; or a process, continuous or in z, as the loop transfer itself.
+    system: any loop; or a transfer function, continuous or in z, as the loop transfer itself.
     With dead time there are infinitely many phase crossovers: all with a gain above 1 and the nearest below it.
 
     >>> found = crossovers(Process([50], [5, 10.25, 6.25, 1]))
@@ -59,7 +64,15 @@ def crossovers(system: Any) -> Crossovers:
         system = system.transfer
     if isinstance(system, LoopTransfer):
         return Crossovers(is_stable(system), margins.gain_crossovers(system), margins.phase_crossovers(system))
-    if isinstance(system, DiscreteProcess):
+    if isinstance(system, FeedforwardLoop):
+        return crossovers(system.loop)
+    if isinstance(system, CascadeLoop):
+        system = system.outer
+    if isinstance(system, TransferAlgebra):
+        system = GeneralLoop(system, 1.0)
+    if isinstance(system, GeneralLoop):
+        return Crossovers(system.is_stable, *ratio_crossovers(*strictly_proper(system.transfer)))
+    if isinstance(system, DiscreteProcess | SampledProcess):
         system = DiscreteLoop(system)
     if isinstance(system, SampledLoop | DiscreteLoop):
         h = system.regulator.h if isinstance(system, SampledLoop) else system.h

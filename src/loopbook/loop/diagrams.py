@@ -9,6 +9,7 @@ from loopbook.controllers.regulator import Regulator
 from loopbook.loop import margins as continuous_margins
 from loopbook.loop.discrete import DiscreteLoop
 from loopbook.loop.frequency_curves import of_pulses, of_sums, of_transfer
+from loopbook.loop.general import GeneralLoop
 from loopbook.loop.margins import Margins
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.plots.frequency import Curve, bode_figure, nyquist_curves
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 def margins(loop: Any) -> Margins:
     """Gain, phase and delay margins with Ms and Mt of a stable loop; prints and displays as a table.
 
-    loop: any loop; or a process, continuous or in z, as the loop transfer itself. Raises LoopError for an unstable
-    loop, which has none: `crossovers` shows where its gain passes 1 and its phase -180 degrees.
+    loop: any loop; or a transfer function, continuous or in z, as the loop transfer itself. Raises LoopError for an
+    unstable loop, which has none: `crossovers` shows where its gain passes 1 and its phase -180 degrees.
 
     >>> from loopbook.controllers.pid_forms import PidStandard
     >>> from loopbook.loop.continuous import Loop
@@ -40,8 +41,10 @@ def margins(loop: Any) -> Margins:
     """
     if isinstance(loop, Process):
         return continuous_margins.margins(LoopTransfer(loop.num, loop.den, loop.delay))
-    if isinstance(loop, DiscreteProcess):
+    if isinstance(loop, DiscreteProcess | SampledProcess):
         loop = DiscreteLoop(loop)
+    if isinstance(loop, TransferAlgebra):
+        loop = GeneralLoop(loop, 1.0)
     if not hasattr(loop, "margins"):
         raise LoopError(f"{type(loop).__name__} has no margins: give a loop, or a process as its loop transfer")
     found: Margins = loop.margins()

@@ -3,6 +3,7 @@
 from typing import Any
 
 from loopbook.controllers.regulator import Regulator
+from loopbook.loop.loop_algebra import opened
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.process.algebra import TransferAlgebra
 from loopbook.process.transfer_function import as_process, simplest
@@ -23,12 +24,13 @@ def feedback(process: Any, regulator: Any = 1.0, sign: float = -1.0) -> Any:
 
 
 def transfer_of(system: Any) -> TransferAlgebra:
-    """The transfer function of a process, a number, a PID form or another regulator (-u/y).
+    """The transfer function of a process, a number, a loop (y/r), a PID form or another regulator (-u/y).
 
     >>> from loopbook.controllers.pid_forms import PidStandard
     >>> transfer_of(PidStandard(2.0, 4.0))
     Process(num=(2.0, 0.5), den=(1.0, 0.0), delay=0.0)
     """
+    system = opened(system)
     system = system if isinstance(system, TransferAlgebra) else as_process(system)
     if isinstance(system, TransferAlgebra):
         return system

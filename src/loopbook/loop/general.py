@@ -152,14 +152,7 @@ class GeneralLoop(ShownLoop):
     def margins(self) -> Margins:
         """Gain (both sides), phase and delay margins, Ms and Mt, certified. Raises LoopError for an unstable loop."""
         self.need_stable("margins")
-        num, den = self.transfer.fraction
-        if num.is_zero:
-            raise LoopError("the loop is open: its transfer function is zero and has no margins")
-        if num.degree >= den.degree:
-            raise LoopError(
-                "the loop gain does not fall off with frequency: its margins cannot be certified; filter it"
-            )
-        return ratio_margins(num, den)
+        return ratio_margins(*strictly_proper(self.transfer))
 
     def final_values(self, source: str) -> tuple[float, float]:
         """What (y, u) tend to after a unit step of one input. Raises LoopError for an unstable loop."""
@@ -202,17 +195,22 @@ class GeneralLoop(ShownLoop):
         return of_sums(self.transfer, w, found)
 
 
+def strictly_proper(transfer: TransferAlgebra) -> tuple[ExponentialPolynomial, ExponentialPolynomial]:
+    """(num, den) of a loop transfer function that is not zero and falls off. Raises LoopError for another."""
+    num, den = transfer.fraction
+    if num.is_zero:
+        raise LoopError("the loop is open: its transfer function is zero and has no margins")
+    if num.degree >= den.degree:
+        raise LoopError("the loop gain does not fall off with frequency: its margins cannot be certified; filter it")
+    return num, den
+
+
 def ratio_margins(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Margins:
     """The margins of a stable loop whose transfer function is num/den, strictly proper."""
     time = characteristic_time_of(num, den)
     above, below = num.in_units(time), den.in_units(time)
     curve = RatioCurve(above, below)
-    at_gain = []
-    for w in curve.gain_crossovers().tolist():
-        margin = float(np.angle(-complex(curve(np.array(w)))))
-        at_gain.append(GainCrossover(w / time, float(np.degrees(margin)), (margin % (2 * np.pi)) / w * time))
-    at_phase = _phase_crossovers(curve, time)
-    at_phase = [*_at_zero(num, den), *at_phase]
+    at_gain, at_phase = ratio_crossovers(num, den)
     Ms, Mt = closest(curve), closest(RatioCurve(above, below, inverse=True))
     for distance, w in (Ms, Mt):
         if distance < BORDER:
@@ -224,9 +222,22 @@ def ratio_margins(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Mar
         delay=min((c.delay_margin for c in at_gain), default=np.inf),
         Ms=Peak(1 / Ms[0], Ms[1] / time),
         Mt=Peak(1 / Mt[0], Mt[1] / time),
-        gain_crossovers=tuple(at_gain),
-        phase_crossovers=tuple(at_phase),
+        gain_crossovers=at_gain,
+        phase_crossovers=at_phase,
     )
+
+
+def ratio_crossovers(
+    num: ExponentialPolynomial, den: ExponentialPolynomial
+) -> tuple[tuple[GainCrossover, ...], tuple[PhaseCrossover, ...]]:
+    """Where the gain of num/den passes 1 and its phase -180 degrees, whether the loop is stable or not."""
+    time = characteristic_time_of(num, den)
+    curve = RatioCurve(num.in_units(time), den.in_units(time))
+    at_gain = []
+    for w in curve.gain_crossovers().tolist():
+        margin = float(np.angle(-complex(curve(np.array(w)))))
+        at_gain.append(GainCrossover(w / time, float(np.degrees(margin)), (margin % (2 * np.pi)) / w * time))
+    return tuple(at_gain), (*_at_zero(num, den), *_phase_crossovers(curve, time))
 
 
 def _phase_crossovers(curve: RatioCurve, time: float) -> list[PhaseCrossover]:

@@ -11,6 +11,7 @@ from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.right_half_plane import RootsError
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.process.transfer_function import simplest
 
 SHOWN = 24
 
@@ -108,9 +109,9 @@ def zeros(system: Any, right_of: float | None = None, box: tuple[float, float, f
     >>> zeros(Process([1, 1], [1, 2]) + Process([0.5], [1, 2], 2), right_of=-1.0)          # s + 1 + exp(-2 s)/2
     Roots(-0.4305+1.037j, -0.4305-1.037j; 2)
     """
+    if hasattr(system, "closed"):
+        system = system.closed("reference", "y")
     fraction = getattr(system, "fraction", None)
-    if fraction is None and hasattr(system, "closed"):
-        fraction = system.closed("reference", "y").fraction
     return _of(fraction and fraction[0], system, "zeros", right_of, box)
 
 
@@ -125,6 +126,10 @@ def dcgain(system: Any) -> float:
         system = system.closed("reference", "y")
     if hasattr(system, "static_gain"):
         return float(system.static_gain)
+    if hasattr(system, "fraction"):
+        return float(simplest(*system.fraction).static_gain)
+    if not hasattr(system, "num"):
+        raise RootsError(f"{type(system).__name__} has no gain that could be told")
     above, below = float(np.sum(system.num)), float(np.sum(system.den))
     with np.errstate(divide="ignore"):
         return float(np.divide(above, below))

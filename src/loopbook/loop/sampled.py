@@ -13,6 +13,7 @@ import numpy as np
 
 from loopbook.controllers.rst import Rst, zeros_of
 from loopbook.loop.circle_margins import circle_margins
+from loopbook.loop.discrete import DiscreteLoop
 from loopbook.loop.frequency_curves import of_circle
 from loopbook.loop.inside_circle import is_stable_in_z, row_sum
 from loopbook.loop.margins import Margins
@@ -20,8 +21,10 @@ from loopbook.loop.sampled_delay_margin import delay_margin
 from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
+from loopbook.numerics.multiple_roots import roots_of
 from loopbook.plots.frequency import Curve
 from loopbook.plots.stairs import stairs
+from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.near_one import zeros_near_one
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
@@ -53,8 +56,8 @@ class SampledLoop(ShownLoop):
     @cached_property
     def poles(self) -> np.ndarray:
         """The zeros of A R + B S, the loop's poles in the z plane; those at the origin left out."""
-        n, d = self.transfer
-        return np.roots(row_sum(n, d)).astype(complex)
+        row = row_sum(*self.transfer)
+        return roots_of(row[: 1 + np.flatnonzero(row)[-1]].tolist())
 
     @cached_property
     def is_stable(self) -> bool:
@@ -64,6 +67,10 @@ class SampledLoop(ShownLoop):
         of the loop transfer, which needs no root of a long polynomial.
         """
         return is_stable_in_z(*self.transfer, lambda: self.on_circle)
+
+    def closed(self, source: str = "reference", output: str = "y") -> DiscreteProcess:
+        """At the samples: from "reference", "load" (held) or "noise" to "y" or "u"."""
+        return DiscreteLoop(self.sampled, self.regulator).closed(source, output)
 
     def with_delay(self, more: float) -> "SampledLoop":
         """The same regulator on a process with `more` seconds of dead time added."""

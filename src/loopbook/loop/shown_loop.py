@@ -4,6 +4,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from loopbook.loop.loop_algebra import LoopAlgebra
 from loopbook.loop.transfer import LoopError
 from loopbook.plots.curves import curves
 from loopbook.plots.frequency import Curve, bode_figure, nyquist_curves
@@ -15,7 +16,7 @@ from loopbook.process.rows import ProcessError
 DIAGRAMS = ("step", "bode", "nyquist")
 
 
-class ShownLoop(ShortRepr, ShownAsTable):
+class ShownLoop(LoopAlgebra, ShortRepr, ShownAsTable):
     """For a loop with `is_stable`, `margins`, `frequency_curve` and `reference_and_load`."""
 
     half_way: ClassVar[str] = "load"

@@ -5,7 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from loopbook.loop.cascade import CascadeLoop
 from loopbook.loop.continuous import Loop
+from loopbook.loop.discrete import DiscreteLoop
+from loopbook.loop.feedforward import FeedforwardLoop
 from loopbook.loop.general import GeneralLoop
 from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.step_response import StepResponse
@@ -15,7 +18,9 @@ from loopbook.numerics.real_numbers import real_array
 from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.process.algebra import TransferAlgebra
-from loopbook.process.transfer_function import Process
+from loopbook.process.discrete import DiscreteProcess
+from loopbook.process.sampled import SampledProcess
+from loopbook.process.transfer_function import Process, simplest
 from loopbook.response.simulation import Simulation
 from loopbook.response.step_metrics import BAND, StepMetrics, StepMetricsError, exact_metrics, sampled_metrics
 
@@ -31,10 +36,10 @@ def step_info(
 ) -> StepMetrics:  # fmt: skip
     """Step metrics of a process, a loop, a response or of samples.
 
-    system: a transfer function or a loop of any kind (its step response; of a loop that to the reference), a
-    `StepResponse`, a `Simulation`, or samples of y at the times t [s]. convention: "exact" (continuous response, true
+    system: a transfer function, a regulator or a loop of any kind (its step response; of a loop that to the reference),
+    a `StepResponse`, a `Simulation`, or samples of y at the times t [s]. convention: "exact" (continuous response, true
     final value) or "sampled" (MATLAB's stepinfo; of a continuous response at t, by default 1,000 intervals up to twice
-    the exact settling time and 1,000 while it rises); samples are always "sampled". final: the
+    the exact settling time and 1,000 while it rises); samples and plants in z are always "sampled". final: the
     final value in that convention, by default the true one of a system and the last one of samples. band: of the
     settling time, as a part of the step.
     Raises StepMetricsError where there is no such response or it does not settle.
@@ -47,6 +52,16 @@ def step_info(
         raise StepMetricsError(f"convention = {convention!r}: exact or sampled")
     if isinstance(system, Simulation):
         return sampled_metrics(system.y, system.t, final, band)
+    if isinstance(system, DiscreteLoop):
+        system = system.closed()
+    if isinstance(system, DiscreteProcess | SampledProcess):
+        return _of_samples(system, t, final, band)
+    if isinstance(system, CascadeLoop | FeedforwardLoop):
+        if not system.is_stable:
+            raise StepMetricsError("the loop is not stable: its step response does not settle")
+        system = system.closed()
+    if hasattr(system, "fraction"):
+        system = simplest(*system.fraction) if not isinstance(system, TransferAlgebra) else system
     if not isinstance(system, TransferAlgebra | Loop | GeneralLoop | SampledLoop | StepResponse):
         return sampled_metrics(system, t, final, band)
     y, value = _response(system)
@@ -55,6 +70,22 @@ def step_info(
         return found
     times = _grid(found, y.end) if t is None else real_array(t, "t", StepMetricsError)
     return sampled_metrics(y(times), times, value if final is None else final, band, rest=0.0)
+
+
+def _of_samples(
+    system: DiscreteProcess | SampledProcess, t: Sequence[float] | None, final: float | None, band: float
+) -> StepMetrics:
+    """Of the samples of a plant in z, until its slowest pole has died out."""
+    if t is not None:
+        raise StepMetricsError("a plant in z is measured at its own samples: give no t")
+    plant = DiscreteProcess.of(system)
+    slowest = float(abs(plant.poles).max(initial=0.0))
+    if not slowest < 1:
+        raise StepMetricsError(f"the plant has a pole at |z| = {slowest:.6g}: it does not settle")
+    decay = int(np.ceil(np.log(SETTLED) / np.log(slowest))) if slowest else 0
+    y = plant.response(np.ones(2 + decay + len(plant.den) + len(plant.num)))
+    end = plant.static_gain if final is None else final
+    return sampled_metrics(y, plant.h * np.arange(len(y)), end, band, rest=0.0)
 
 
 def _grid(found: StepMetrics, end: float) -> np.ndarray:

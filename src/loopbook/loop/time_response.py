@@ -6,7 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from loopbook.loop.discrete import DiscreteLoop
+from loopbook.loop.feedback import transfer_of
 from loopbook.loop.roots import dcgain, poles
+from loopbook.loop.sampled import SampledLoop
 from loopbook.numerics.signals import Signal
 from loopbook.plots.curves import curves
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
@@ -15,7 +18,9 @@ from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
 from loopbook.process.algebra import LAPLACE, TransferAlgebra
 from loopbook.process.horizon import default_horizon
+from loopbook.process.rows import ProcessError
 from loopbook.response.closed_loop import ResponseError
+from loopbook.response.simulation import simulate
 from loopbook.response.step_metrics import StepMetrics, StepMetricsError, exact_metrics
 
 KINDS = ("step", "impulse", "ramp")
@@ -122,6 +127,7 @@ def ramp_response(system: Any, horizon: float | None = None) -> Response:
 
 def _response(kind: str, system: Any, horizon: float | None) -> Response:
     named = dict(system) if isinstance(system, Mapping) else {"y": system}
+    named = {name: one.closed() if isinstance(one, DiscreteLoop) else one for name, one in named.items()}
     if not named:
         raise ResponseError("no system is given")
     if horizon is not None and not (np.isfinite(horizon) and horizon > 0):
@@ -133,15 +139,14 @@ def _response(kind: str, system: Any, horizon: float | None) -> Response:
 
 
 def _is_sampled(system: Any) -> bool:
-    return hasattr(system, "h") and hasattr(system, "response")
+    return isinstance(system, SampledLoop) or (hasattr(system, "h") and hasattr(system, "response"))
 
 
 def _transfer(system: Any) -> TransferAlgebra:
-    if hasattr(system, "closed"):
-        system = system.closed("reference", "y")
-    if not isinstance(system, TransferAlgebra):
-        raise ResponseError(f"{type(system).__name__} has no response: give a transfer function or a loop")
-    return system
+    try:
+        return transfer_of(system)
+    except ProcessError:
+        raise ResponseError(f"{type(system).__name__} has no response: give a transfer function or a loop") from None
 
 
 def _course(kind: str, system: Any, horizon: float | None) -> Course:
@@ -166,11 +171,18 @@ def _course(kind: str, system: Any, horizon: float | None) -> Course:
 
 
 def _of_sampled(kind: str, system: Any, horizon: float | None) -> Course:
-    h = float(system.h)
+    between = isinstance(system, SampledLoop)
+    h = float(system.regulator.h if between else system.h)
+    if horizon is None and between:
+        horizon = system.default_horizon() / 2
     steps = SAMPLES if horizon is None else max(int(np.ceil(horizon / h)), 1)
     k = np.arange(steps + 1)
     u = {"step": np.ones(len(k)), "impulse": (k == 0).astype(float), "ramp": h * k}[kind]
     settles = kind == "step" and (np.abs(np.asarray(poles(system))) < 1).all()
+    if between:
+        y = simulate(system.process, system.regulator.controller(), h, steps, reference=u).between
+        t = np.unique(np.concatenate([np.linspace(0.0, y.end, POINTS), y.edges[y.edges >= 0]]))
+        return Course(y, t, y(t), final=dcgain(system) if settles else float("nan"))
     return Course(None, *stairs(h * k, system.response(u)), final=dcgain(system) if settles else float("nan"))
 
 

@@ -147,9 +147,10 @@ class TransferAlgebra(ABC):
 
 
 def _fraction(other: Any) -> Fraction | None:
-    """Of a transfer function or a number; None for anything else."""
-    if isinstance(other, TransferAlgebra):
-        return other.fraction
+    """Of a transfer function, a regulator (its feedback path -u/y) or a number; None for anything else."""
+    if hasattr(other, "fraction"):
+        found: Fraction = other.fraction
+        return found
     try:
         number = real(plain_number(other), "factor", ProcessError)
     except TypeError:

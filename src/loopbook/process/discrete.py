@@ -186,6 +186,14 @@ class DiscreteProcess(Approximates):
             raise ProcessError("it has a delay, so that its inverse would need the future: multiply it by z first")
         return DiscreteProcess(self.den, self.num, self.h)
 
+    def __pow__(self, power: Any) -> Any:
+        if not isinstance(power, int | np.integer):
+            return NotImplemented
+        once, total = self if power >= 0 else self.inverse(), DiscreteProcess((1.0,), (1.0,), self.h)
+        for _ in range(abs(int(power))):
+            total = total * once
+        return total
+
     def __truediv__(self, other: Any) -> Any:
         other = self.with_other(other)
         return NotImplemented if other is None else self * other.inverse()

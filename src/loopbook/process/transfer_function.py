@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loopbook.numerics import horner
+from loopbook.numerics.characteristic_roots import zeros_in
 from loopbook.numerics.exponential_polynomial import SAME_DELAY, ExponentialPolynomial, same_delay
 from loopbook.numerics.real_numbers import in_a_sentence, plain_number, positive, real
 from loopbook.numerics.several_delays import step_response
@@ -50,6 +51,16 @@ class _Transfer(TransferAlgebra):
 
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"
+
+    @property
+    def poles(self) -> np.ndarray:
+        """The poles [1/s], multiple ones repeated; of a loop with dead time the rightmost (see `loop.roots`)."""
+        return _repeated(self.fraction[1])
+
+    @property
+    def zeros(self) -> np.ndarray:
+        """The zeros [1/s], as the poles."""
+        return _repeated(self.fraction[0])
 
     def plot(self, horizon: float | None = None) -> "Figure":
         """The unit step response as a matplotlib figure, up to the horizon [s]."""
@@ -126,7 +137,7 @@ class Process(_Transfer, Interchange):
         return ExponentialPolynomial.of(self.num, self.delay), ExponentialPolynomial.of(self.den)
 
     def __mul__(self, other: Any) -> Any:
-        if isinstance(other, TransferAlgebra):
+        if hasattr(other, "fraction"):
             return super().__mul__(other)
         try:
             factor = real(plain_number(other), "factor", ProcessError)
@@ -241,7 +252,7 @@ class DelayedSum(_Transfer):
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, DelayedSum):
             return DelayedSum(tuple(a * b for a in self.terms for b in other.terms))
-        if isinstance(other, TransferFunction):
+        if hasattr(other, "fraction") and not isinstance(other, Process):
             return super().__mul__(other)
         products = tuple(term * other for term in self.terms)
         return NotImplemented if any(p is NotImplemented for p in products) else DelayedSum(products)
@@ -329,6 +340,13 @@ def simplest(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Process 
         num, below = num.over(below[0]), (1.0,)
     terms = tuple(Process(p, below, max(delay, 0.0)) for delay, p in num.terms)
     return terms[0] if len(terms) == 1 else DelayedSum(terms)
+
+
+def _repeated(f: ExponentialPolynomial) -> np.ndarray:
+    if f.is_zero:
+        return np.zeros(0, complex)
+    found = zeros_in(f)[0]
+    return np.repeat(found.values.astype(complex), found.multiplicity)
 
 
 def as_process(number: Any) -> Any:

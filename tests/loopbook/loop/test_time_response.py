@@ -46,7 +46,7 @@ def test_it_shows_and_draws_itself():
     assert "overshoot [%]" in str(both) and "slow" in both._repr_html_()
     figure = both.plot()
     (axis,) = figure.axes
-    assert axis.get_xlabel() == "time $t$ [s]" and len(axis.get_legend().texts) == 2
+    assert axis.get_xlabel() == "time $t$ [s]" and len(figure.legends[0].texts) == 2
     assert both["fast"].metrics().overshoot == pytest.approx(LOOP.step().metrics().overshoot, rel=1e-9)
     assert "impulse" in impulse_response(LOOP).plot().axes[0].get_title()
     unstable = step_response(Process([1], [1, -1]))
