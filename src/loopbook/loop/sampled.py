@@ -21,7 +21,6 @@ from loopbook.loop.sampled_delay_margin import delay_margin
 from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
-from loopbook.numerics.multiple_roots import roots_of
 from loopbook.plots.frequency import Curve
 from loopbook.plots.stairs import stairs
 from loopbook.process.discrete import DiscreteProcess
@@ -56,8 +55,7 @@ class SampledLoop(ShownLoop):
     @cached_property
     def poles(self) -> np.ndarray:
         """The zeros of A R + B S, the loop's poles in the z plane; those at the origin left out."""
-        row = row_sum(*self.transfer)
-        return roots_of(row[: 1 + np.flatnonzero(row)[-1]].tolist())
+        return np.roots(row_sum(*self.transfer)).astype(complex)
 
     @cached_property
     def is_stable(self) -> bool:
