@@ -229,7 +229,7 @@ def exact_metrics(
 def _need_a_step(final: float, rest: float, largest: float) -> None:
     if abs(final - rest) <= NO_STEP * max(largest, abs(final)):
         raise StepMetricsError(
-            f"the response ends where it begins ({final:g}): rise, settling and overshoot refer to the step "
+            f"the response ends where it begins ({final + 0.0:g}): rise, settling and overshoot refer to the step "
             "final - y(0). For a disturbance response use its peak and integrals"
         )
 
