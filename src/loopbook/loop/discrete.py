@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.controllers.rst import Rst
+from loopbook.controllers.rst import Rst, zeros_of
 from loopbook.loop.circle_margins import circle_margins
 from loopbook.loop.frequency_curves import of_circle
 from loopbook.loop.inside_circle import is_stable_in_z, row_sum
@@ -20,6 +20,8 @@ from loopbook.loop.unit_circle import CircleTransfer
 from loopbook.plots.frequency import Curve
 from loopbook.plots.stairs import stairs
 from loopbook.process.discrete import DiscreteProcess
+from loopbook.process.near_one import zeros_near_one
+from loopbook.process.sampled import SampledProcess
 
 SOURCES, OUTPUTS = ("reference", "load", "noise"), ("y", "u")
 
@@ -71,6 +73,8 @@ class DiscreteLoop(ShownLoop):
     @cached_property
     def on_circle(self) -> CircleTransfer:
         """The loop transfer at z = exp(j angle)."""
+        if isinstance(self.plant, SampledProcess):
+            return circle_of_sampled(self.plant, self.polynomials)
         return circle_of(self.transfer)
 
     @cached_property
@@ -141,6 +145,14 @@ class DiscreteLoop(ShownLoop):
         if not self.is_stable:
             raise LoopError(f"the loop is unstable (a pole at |z| = {abs(self.poles).max():.6g}) and has no margins")
         return circle_margins(self.on_circle, self.h)
+
+
+def circle_of_sampled(plant: SampledProcess, regulator: Rst) -> CircleTransfer:
+    """The same of a sampled process under a regulator, its poles and zeros as it knows them, to all digits."""
+    B, A = plant.polynomials
+    zeros = np.concatenate([zeros_of(regulator.S), zeros_near_one(plant)])
+    poles = np.concatenate([zeros_of(regulator.R), np.exp(plant.process.poles * plant.h)])
+    return CircleTransfer(np.convolve(regulator.S, B), np.convolve(regulator.R, A), zeros, poles)
 
 
 def circle_of(system: DiscreteProcess) -> CircleTransfer:

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from loopbook.controllers.rst import Rst, zeros_of
+from loopbook.controllers.rst import Rst
 from loopbook.loop.circle_margins import circle_margins
-from loopbook.loop.discrete import DiscreteLoop
+from loopbook.loop.discrete import DiscreteLoop, circle_of_sampled
 from loopbook.loop.frequency_curves import of_circle
 from loopbook.loop.inside_circle import is_stable_in_z, row_sum
 from loopbook.loop.margins import Margins
@@ -24,7 +24,6 @@ from loopbook.loop.unit_circle import CircleTransfer
 from loopbook.plots.frequency import Curve
 from loopbook.plots.stairs import stairs
 from loopbook.process.discrete import DiscreteProcess
-from loopbook.process.near_one import zeros_near_one
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
@@ -81,10 +80,7 @@ class SampledLoop(ShownLoop):
     @cached_property
     def on_circle(self) -> CircleTransfer:
         """The loop transfer at z = exp(j angle)."""
-        n, d = self.transfer
-        zeros = np.concatenate([zeros_of(self.regulator.S), zeros_near_one(self.sampled)])
-        poles = np.concatenate([zeros_of(self.regulator.R), np.exp(self.process.poles * self.regulator.h)])
-        return CircleTransfer(n, d, zeros, poles)
+        return circle_of_sampled(self.sampled, self.regulator)
 
     def at(self, angle: np.ndarray) -> np.ndarray:
         """The loop transfer at z = exp(j angle), angle = w h [rad]."""

@@ -10,6 +10,7 @@ from loopbook.loop.crossovers import crossovers
 from loopbook.loop.diagrams import bode, margins, nyquist
 from loopbook.loop.discrete import DiscreteLoop
 from loopbook.loop.sampled import SampledLoop
+from loopbook.pole_placement.place import place
 from loopbook.process.construct import tf
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
@@ -93,3 +94,13 @@ def test_what_makes_no_loop_is_said():
         DiscreteLoop(MATLAB).closed("output", "y")
     with pytest.raises(ValueError, match="no crossovers"):
         crossovers("x")
+
+
+def test_a_sampled_process_with_many_samples_of_dead_time_is_as_quick_in_z():
+    """Its poles and zeros are known to all digits there too: margins as of the sampled loop, in a moment."""
+    process = Process([1], [1, 1], 2.7)
+    plant = sample(process, 0.1)
+    regulator = place(plant, 0.9).regulator
+    here, there = DiscreteLoop(plant, regulator).margins(), SampledLoop(process, regulator).margins()
+    for name in ("gain", "gain_low", "phase", "Ms", "Mt"):
+        assert getattr(here, name) == pytest.approx(getattr(there, name), rel=1e-9), name
