@@ -15,7 +15,7 @@ from loopbook.plots.circuit import Circuit
 
 pytestmark = pytest.mark.long
 
-FIGURES = {of_the_tank: {"1", "2", "4", "7", "9"}, of_the_report: {"3.1", "3.11", "4.1", "4.4"}}
+FIGURES = {of_the_tank: {"1", "2", "4", "7", "9"}, of_the_report: {"3.1", "3.11", "4.1", "4.4", "5.6"}}
 
 
 def drawings(module):
