@@ -43,6 +43,11 @@ class Batch:
         """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
         return robust.ziegler_nichols_joint(self.studies)
 
+    @cached_property
+    def filtered(self) -> dict[str, np.ndarray]:
+        """The PID step rule with a derivative filter: `robustness.joint_with_filter` of the stable processes."""
+        return robust.joint_with_filter(self.studies)
+
     def side(self, id: str, values: np.ndarray, limit: str) -> np.ndarray:
         """The processes that a statement speaks of: those on its side of its limit."""
         claim = self.said(id)
