@@ -63,3 +63,12 @@ def test_a_computed_sentence_is_prose_without_its_code(make):
     page = make.html(nb)
     assert "It needs <strong>8360</strong> W." in page and "prose(" not in page
     assert compare(nb, "T It needs 8360 W.").lost == []
+
+
+def test_a_proof_in_a_row_that_does_not_repeat_its_place_is_found(make):
+    rows = [["Figure 5.12", "one"], ["Figure 5.12", "other"]]
+    table = Table(["place", "correct"], rows, "Misprints", anchors=["misprint-one", "misprint-other"], groups=1)
+    nb = make.notebook("# T", tagged(make, "Wrong; [proof](#misprint-other).", "margin"), make.code(table))
+    assert make.html(nb).count('id="misprint-other"') == 1
+    assert make.typst(nb).count('label("misprint-other")') == 2
+    assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
