@@ -39,7 +39,7 @@ def noise(Tf: float, h: float) -> float:
 
 
 def loop(Tf: float, h: float) -> Loop:
-    """The loop with a filter of the time constant Tf [s] >= 0; the hold of a program that samples every h [s] > 0 is
+    """The loop with a filter of the time constant Tf [s] >= 0; the hold of a program that samples every h [s] >= 0 is
     counted as half an interval of dead time."""
     return Loop(tf(1, [1, 1, 0], delay=0.1), PidStandard(2.0, 10.0, TD, Tf=Tf)).with_delay(h / 2)
 
