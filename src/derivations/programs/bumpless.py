@@ -25,7 +25,7 @@ NEW = {s: Symbol(f"{s.name}_new", **_TYPES.get(n, {"positive": True})) for n, s 
 @cache
 def keep_p_plus_i() -> Eq:
     """Eq. 4.10: the I_new for which P + I is the same with the old and the new K and b."""
-    proportional = next(a.value for a in code.separate().before if a.target == code.P)
+    proportional = code.separate().assigned(code.P)
     old, new = proportional.subs(OLD) + I_old, proportional.subs(NEW) + I_new
     return equality(I_new, collect(solved_for(I_new, old, new).expand(), [OLD[K], NEW[K]]))
 
@@ -120,7 +120,7 @@ def jump_after(figure: str) -> Expr:
 @cache
 def late_correction() -> Expr:
     """Extra jump where eq. 4.10 uses the measurement of the sample before, as the code figures do: the step of P."""
-    share = next(a.value for a in code.separate().before if a.target == code.P)
+    share = code.separate().assigned(code.P)
     change = _changed("K", share) - share
     return factored(change - change.subs(code.y, code.y_old))
 

@@ -142,11 +142,15 @@ def recovery_of_pi(Tt: float) -> float:
     return recovery(simulate(PROCESS, pi, H, 500, reference=wanted))
 
 
-def misprinted(unit: float | None) -> Simulation:
+def misprinted(unit: float | None, **more: float) -> Simulation:
     """A set-point step with the program of figure 4.13 and p4 = K Td h, as eq. 4.17 is read; None: with the right p4.
 
-    unit: the unit of time [s] in which the controller's times are counted. The time axis of the run is in seconds.
+    unit: the unit of time [s] in which the controller's times are counted. more: other `settings`. The time axis of
+    the run is in seconds.
+
+    >>> abs(misprinted(None).y[-1] - 1) < 0.01 < abs(misprinted(1.0).y[-1] - 1)
+    True
     """
-    free = settings(u_low=-9.0, u_high=9.0)
+    free = settings(**{**more, "u_low": -9.0, "u_high": 9.0})
     wrong = {} if unit is None else {"p_4": free.K * (free.Td / unit) * (free.h / unit)}
-    return simulate(PROCESS, ProgramController("4.13", free, gains=wrong), H, 200, reference=1.0)
+    return simulate(PROCESS, ProgramController("4.13", free, gains=wrong), free.h, round(20 / free.h), reference=1.0)
