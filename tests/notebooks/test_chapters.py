@@ -29,10 +29,6 @@ NOT_YET = {  # only shrinks: a chapter that keeps every rule has to leave
     "pid_article/04_ultimate_gain_and_manual_tuning",
     "pid_article/05_gain_scheduling",
     "pid_article/06_discrete_program",
-    "pid_report/01_from_on_off_to_pid",
-    "pid_report/02_discrete_terms",
-    "pid_report/03_pid_program",
-    "pid_report/04_anti_windup_and_bumpless",
 }
 FORM = "a report on the reader's own record: its first page is the sheet, its parameters are the command's options"
 LET_OFF = {  # by chapter: the rules that do not apply to it, with the reason

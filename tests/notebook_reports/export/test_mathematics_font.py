@@ -36,6 +36,13 @@ def test_a_single_letter_comes_with_its_italic_and_brackets_grow():
     assert any(construction.MathGlyphVariantRecord for construction in variants)
 
 
+@pytest.mark.parametrize("latex", [r"\sqrt{x}", r"\sqrt[3]{x}"])
+def test_the_sign_of_a_root_is_in_the_font_though_it_is_in_no_text(latex):
+    font = font_in(font_face(latex_to_mathml(latex)))
+    assert ord("√") in font.getBestCmap()
+    assert font.getBestCmap()[ord("√")] in font["MATH"].table.MathVariants.VertGlyphCoverage.glyphs
+
+
 def test_a_page_without_formulas_brings_no_font_and_one_with_few_a_small_one():
     assert font_face("<p>x = 1</p>") == ""
     assert len(font_face("<math><mi>x</mi></math>")) < 12_000

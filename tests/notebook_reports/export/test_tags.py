@@ -33,6 +33,15 @@ def test_a_note_stands_in_the_margin_and_leads_to_its_proof(make):
     assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
 
 
+def test_a_row_whose_place_is_shown_once_can_be_linked_to(make):
+    rows, anchors = [["eq. 1", "$+3$"], ["eq. 1", "$x$"]], ["misprint-sign", "misprint-name"]
+    table = Table(["place", "correct"], rows, "Misprints", groups=1, anchors=anchors)
+    note = tagged(make, "It is $x$; [proof](#misprint-name).", "margin")
+    nb = make.notebook("# T", note, make.code(table))
+    assert make.html(nb).count('id="misprint-name"') == 1
+    assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
+
+
 def test_a_question_to_try_stands_in_a_box(make):
     nb = make.notebook("# T", tagged(make, "**Try it.** Set `q` to $0.7$.", "try-it"))
     assert re.search(r'<div class="alert info" role="note"><p><strong>Try it.</strong>', make.html(nb))

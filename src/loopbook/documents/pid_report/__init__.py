@@ -9,6 +9,7 @@ from loopbook.lazy import attach
 
 MODULES = (
     "aliasing", "batch", "cruise_control", "diagrams", "equations", "experiment_figures", "filter_forms",
+    "filter_price",
     "looking_ahead", "perfect_alpha", "printed_programs", "program_listing", "saturated_sine", "waiting", "windup",
 )  # fmt: skip
 TABLE = {name: f"loopbook.documents.pid_report.{name}" for name in MODULES}

@@ -21,14 +21,18 @@ FAMILY = "Formulas of this page"
 _NAME = b"NewComputerModernMath-Regular"
 _PRIMES = frozenset("′″‴⁗‵")
 """These alone need the shapes for scripts: at their usual size they stand too high in one."""
+_ROOT = re.compile(r"<(msqrt|mroot)\b")
+"""A root's sign is in no text: the browser takes it from the font."""
 _MATH = re.compile(r"<math\b.*?</math>", re.DOTALL)
 
 
 def font_face(page: str) -> str:
     """The CSS rule that brings the font for the formulas of an HTML page; nothing for a page without any."""
-    formulas = "".join(re.sub(r"<[^>]*>", "", found) for found in _MATH.findall(page))
+    found = _MATH.findall(page)
+    formulas = "".join(re.sub(r"<[^>]*>", "", one) for one in found)
     if not formulas:
         return ""
+    formulas += "√" if any(map(_ROOT.search, found)) else ""
     data = _part(frozenset(unescape(formulas)) - {"\n", "\t"} | frozenset("0123456789 "))
     if not data:
         return ""
