@@ -57,3 +57,27 @@ THREE_TERMS = Diagram(
     ],
     "The three terms in the dependent structure: one gain before all of them.",
 )
+
+LAG_LOOP = Diagram(
+    {
+        "set point": Port("$w$", 0, 0, "W"),
+        "comparison": Sum(0.7, 0),
+        "PI regulator": Box(r"$K_p\left(1+\dfrac{1}{T_i s}\right)$", 2.25, 0, 1.7, 0.8),
+        "load": Port("load $d$", 3.85, 0.85, "N"),
+        "load's place": Sum(3.85, 0),
+        "plant": Box(r"$\dfrac{k}{1+T s}$", 5.0, 0, 1.1, 0.8),
+        "output's tap": Tap(6.1, 0),
+        "output": Port("$y$", 6.6, 0, "E"),
+    },
+    [
+        Wire("set point", "comparison"),
+        Wire("comparison", "PI regulator", "$e$"),
+        Wire("PI regulator", "load's place", "$u$"),
+        Wire("load", "load's place"),
+        Wire("load's place", "plant"),
+        Wire("plant", "output's tap", arrow=False),
+        Wire("output's tap", "output"),
+        Wire("output's tap.S", "comparison.S", sign="−", via=-0.85),
+    ],
+    "A PI regulator and a plant with one lag.",
+)
