@@ -81,3 +81,28 @@ LAG_LOOP = Diagram(
     ],
     "A PI regulator and a plant with one lag.",
 )
+
+SCHEDULED = Diagram(
+    {
+        "set point": Port("$w$", 0, 0, "W"),
+        "comparison": Sum(0.7, 0),
+        "PID regulator": Box("PID", 2.0, 0, 1.1, 0.7),
+        "plant": Box(r"$\ddot y=-\dot y-\sqrt{y}+u$", 4.3, 0, 2.1, 0.7),
+        "output's tap": Tap(5.8, 0),
+        "output": Port("$y$", 6.7, 0, "E"),
+        "second tap": Tap(6.2, 0),
+        "schedule": Box("settings of $y$", 4.3, 1.05, 1.7, 0.6),
+    },
+    [
+        Wire("set point", "comparison"),
+        Wire("comparison", "PID regulator", "$e$"),
+        Wire("PID regulator", "plant", "$u$"),
+        Wire("plant", "output's tap", arrow=False),
+        Wire("output's tap", "second tap", arrow=False),
+        Wire("second tap", "output"),
+        Wire("second tap.N", "schedule.E"),
+        Wire("schedule.W", "PID regulator.N", r"$K_p, T_i, T_d$"),
+        Wire("output's tap.S", "comparison.S", sign="−", via=-0.8),
+    ],
+    "Gain scheduling: the output chooses the settings of the regulator that holds it.",
+)
