@@ -88,7 +88,7 @@ def open_loop(program: CProgram, number: Callable | None = None) -> list[tuple]:
     return rows
 
 
-class Regulator:
+class ProgramRegulator:
     """The program's regulator with its state, one sample a step; also for `loopbook.response.simulation.simulate`.
 
     anti_windup: undo the sum of the errors while the output is limited. first_difference: let the D term act on the
@@ -134,13 +134,15 @@ def closed_loop(
     """Rows (t, x1, x2, u, w) of the closed loop after a step of the set-point.
 
     The row at time t is written before the regulator runs: its u is the one that acted *up to* t.
-    anti_windup, first_difference: as for `Regulator`. total, x1, u: the stored sum, the output and the control signal
-    to start from (default rest); `derivations.programs.positional_pid.bumpless_total` gives the sum for a start without
-    a bump. setpoint: w as a function of t [s], in place of the step.
+    anti_windup, first_difference: as for `ProgramRegulator`. total, x1, u: the stored sum, the output and the control
+    signal to start from (default rest); `derivations.programs.positional_pid.bumpless_total` gives the sum for a start
+    without a bump. setpoint: w as a function of t [s], in place of the step.
     """
     number = number or _single()
     p, plant = program.cast(number), _function("plant")
-    regulator = Regulator(program, number, anti_windup=anti_windup, first_difference=first_difference, total=total)
+    regulator = ProgramRegulator(
+        program, number, anti_windup=anti_windup, first_difference=first_difference, total=total
+    )
     t, x1, x2, u, rows = number(0), number(x1), number(0), number(u), []
     while t <= p["t_end"]:
         w = number(setpoint(float(t))) if setpoint else p["level"]

@@ -111,6 +111,6 @@ def test_the_regulator_on_the_exact_plant_tends_to_the_continuous_loop(program):
     """Without limits and with a short step, derivative on the measurement in effect: the first sample has none."""
     wide = replace(program, u_min=-1000, u_max=1000)
     plant, pid = tf(3, [[2, 1], [3, 1]]), PidStandard(*(float(x) for x in (wide.Kp, wide.Ti, wide.Td)), c=0.0)
-    run = simulate(plant, c_program.Regulator(wide), 0.01, 1000, reference=1.0)
+    run = simulate(plant, c_program.ProgramRegulator(wide), 0.01, 1000, reference=1.0)
     exact = reference_to_output(plant, pid).step(run.t)
     assert abs(run.y - exact).max() < 0.01
