@@ -96,6 +96,8 @@ def test_brackets_that_need_not_grow_do_not_take_the_room_for_it(latex):
     assert 'stretchy="true"' not in inner(rf"G{{\left({latex} \right)}}")
 
 
-@pytest.mark.parametrize("latex", [r"\frac{1}{s}", r"\sqrt{y}", r"\sum_k e_k", "x^{y^2}", r"\int e", r"1 + \frac{t}{T}"])
+@pytest.mark.parametrize(
+    "latex", [r"\frac{1}{s}", r"\sqrt{y}", r"\sum_k e_k", "x^{y^2}", r"\int e", r"1 + \frac{t}{T}"]
+)
 def test_brackets_round_what_is_tall_grow(latex):
     assert inner(rf"\left({latex}\right)").count('stretchy="true"') == 2
