@@ -36,11 +36,15 @@ def test_a_single_letter_comes_with_its_italic_and_brackets_grow():
     assert any(construction.MathGlyphVariantRecord for construction in variants)
 
 
-@pytest.mark.parametrize("latex", [r"\sqrt{x}", r"\sqrt[3]{x}"])
-def test_the_sign_of_a_root_is_in_the_font_though_it_is_in_no_text(latex):
+@pytest.mark.parametrize("latex", [r"\sqrt{y}", r"\sqrt[3]{y}", r"y^{\sqrt{2}}"])
+def test_a_root_comes_with_its_sign_in_all_sizes(latex):
+    """The sign is no text of the formula: without its glyph a browser draws the radicand alone."""
     font = font_in(font_face(latex_to_mathml(latex)))
-    assert ord("√") in font.getBestCmap()
-    assert font.getBestCmap()[ord("√")] in font["MATH"].table.MathVariants.VertGlyphCoverage.glyphs
+    sign = font.getBestCmap()[ord("√")]
+    variants = font["MATH"].table.MathVariants
+    sizes = dict(zip(variants.VertGlyphCoverage.glyphs, variants.VertGlyphConstruction, strict=True))
+    assert len(sizes[sign].MathGlyphVariantRecord) > 2
+    assert ord("√") not in font_in(font_face("<math><mi>y</mi></math>")).getBestCmap()
 
 
 def test_a_page_without_formulas_brings_no_font_and_one_with_few_a_small_one():

@@ -33,12 +33,11 @@ def test_a_note_stands_in_the_margin_and_leads_to_its_proof(make):
     assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
 
 
-def test_a_row_whose_place_is_shown_once_can_be_linked_to(make):
-    rows, anchors = [["eq. 1", "$+3$"], ["eq. 1", "$x$"]], ["misprint-sign", "misprint-name"]
-    table = Table(["place", "correct"], rows, "Misprints", groups=1, anchors=anchors)
-    note = tagged(make, "It is $x$; [proof](#misprint-name).", "margin")
-    nb = make.notebook("# T", note, make.code(table))
-    assert make.html(nb).count('id="misprint-name"') == 1
+def test_the_rows_of_one_place_each_keep_their_anchor(make):
+    rows = [["eq. 1", "$+3$"], ["eq. 1", "$x$"], ["eq. 1", "$y$"]]
+    table = Table(["place", "correct"], rows, "Misprints", groups=1, anchors=["first", "second", "third"])
+    nb = make.notebook("# T", "[proof](#second), [proof](#third)", make.code(table))
+    assert [make.html(nb).count(f'id="{name}"') for name in table.anchors] == [1, 1, 1]
     assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
 
 
