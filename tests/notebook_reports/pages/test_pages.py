@@ -11,7 +11,8 @@ from notebook_reports.memory import stamps
 from notebook_reports.pages import publish as pages
 from notebook_reports.pages.links import dead_links, read_links
 from notebook_reports.project.console import Console
-from notebook_reports.project.project import Notebook, project_at
+from notebook_reports.project.outline import read_outline
+from notebook_reports.project.project import Notebook, Project, UsageError, project_at
 
 pytestmark = pytest.mark.builds
 
@@ -231,3 +232,24 @@ def test_build_writes_them_and_names_what_is_unlisted(bench):
     assert outcome.code == 1
     assert "notebooks/essays/02.ipynb is in no part of notebooks/book.toml" in bench.said
     assert not {"index.html", "ledger.html", "loopbook.pdf"} & set(bench.reports())
+
+
+@pytest.mark.parametrize(
+    ("order", "ids"),
+    [
+        ([], ["a/one", "a/two", "a/zero"]),
+        (["zero"], ["a/zero", "a/one", "a/two"]),
+        (["two", "zero", "one"], ["a/two", "a/zero", "a/one"]),
+    ],
+)
+def test_a_part_has_the_order_that_it_names(tmp_path, order, ids):
+    def outlined(names):
+        text = f'title = "T"\n[[part]]\nfolder = "a"\ntitle = "A"\norder = {names!r}\n'
+        (tmp_path / "notebooks").mkdir(exist_ok=True)
+        (tmp_path / "notebooks" / "book.toml").write_text(text)
+        entries = [{"id": f"a/{name}", "folder": "a"} for name in ("one", "two", "zero")]
+        return [e["id"] for e in read_outline(Project(tmp_path, tmp_path / "c"), entries).entries]
+
+    assert outlined(order) == ids
+    with pytest.raises(UsageError, match="order names three; there are one, two, zero"):
+        outlined([*order, "three"])
