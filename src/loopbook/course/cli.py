@@ -144,7 +144,7 @@ def grade(
     folder = (released or _the_release()) / TEACHER
     manifest = read_manifest(folder / FILE)
     limits = NotebookLimits(seconds=seconds)
-    hide = [folder.parent]
+    hide = [folder.parent, folder.resolve().parents[1]]
     done = grade_all(
         submissions, output, manifest, folder, Processes(jobs), hide, chosen, keys, limits, _progress("judged")
     )

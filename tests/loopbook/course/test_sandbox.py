@@ -1,7 +1,7 @@
 """The parts of the walls that can be looked at without building them, and the loop that judges a function."""
 
-import io
 import json
+import sys
 
 import pytest
 
@@ -44,11 +44,14 @@ def test_a_folder_that_only_its_owner_may_enter_is_known(tmp_path):
     assert walls._closed("/usr") == []
 
 
-def test_the_first_order_carries_what_walls_stand():
-    orders = zygote._WithWalls(io.StringIO('{"cells": []}\n{"call": "f"}\n'), ["no network"])
-    assert json.loads(orders.readline()) == {"cells": [], "walls": ["no network"]} and list(orders) == [
-        '{"call": "f"}\n'
-    ]
+def test_python_is_looked_for_under_every_name_it_has(tmp_path, monkeypatch):
+    (tmp_path / "really").mkdir()
+    (tmp_path / "link").symlink_to("really")
+    monkeypatch.setattr(sys, "path", ["", str(tmp_path / "link"), str(tmp_path / "nowhere.zip"), "/"])
+    found = zygote.python_folders()
+    assert {str(tmp_path / "link"), str(tmp_path / "really"), sys.prefix, sys.base_prefix} <= set(found)
+    assert not {"/", "", str(tmp_path / "nowhere.zip")} & set(found)
+    assert walls.enterable("/") and not walls.enterable(str(tmp_path / "nowhere"))
     assert NotebookLimits(seconds=3).data()["seconds"] == 3
 
 

@@ -12,6 +12,7 @@ from loopbook.course.grade.one import Graded, GradeJob, grade_one
 from loopbook.course.grade.submissions import Collected, Submission, collect
 from loopbook.course.grade.verdicts import OWN, RIGHT, Judged
 from loopbook.course.release.manifest import Manifest
+from loopbook.course.sandbox.jail import JailFailed
 from loopbook.course.sandbox.limits import NotebookLimits
 from loopbook.course.workers import Executor
 from notebook_reports.project import atomic
@@ -45,7 +46,8 @@ def grade(
 ) -> Grades:
     """Judge what lies in `folder` and write grades and feedback into `out`. release: the folder of the manifest.
 
-    Raises CourseError before anything runs.
+    Raises CourseError before anything runs, and JailFailed where the machine, not a student, is why a notebook gives
+    nothing.
     """
     collected = collect(folder, manifest)
     sheets = {id: _sheet(release / one.source) for id, one in manifest.sheets.items()}
@@ -83,6 +85,8 @@ def _sheet(path: Path) -> bytes:
 
 
 def _note(done: Grades, out: Path, one: Submission, found: Graded | Exception) -> None:
+    if isinstance(found, JailFailed):
+        raise found
     if isinstance(found, Exception):
         done.unread.append((one.file, f"could not be judged: {found}"))
         return

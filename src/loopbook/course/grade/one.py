@@ -17,7 +17,7 @@ from loopbook.course.notebooks import Content, source_of
 from loopbook.course.release.one import as_report, runner
 from loopbook.course.release.student import screen_sheet
 from loopbook.course.running import SheetRunner, Solved
-from loopbook.course.sandbox.jail import Jail, NotebookFailed, Returned, RunningNotebook
+from loopbook.course.sandbox.jail import Jail, JailFailed, NotebookFailed, Returned, RunningNotebook
 from loopbook.course.sandbox.limits import NotebookLimits
 from notebook_reports.export.read.solutions import QUESTION
 
@@ -80,7 +80,7 @@ def _unknown(names: Mapping[str, Any], solved: Solved) -> list[str]:
 
 def _run(ran: SheetRunner, job: GradeJob) -> tuple[list[Judged], list[str], tuple[str, ...]]:
     """Run the student's notebook behind its walls, and judge what comes out while its functions can be called."""
-    running = jail(job.hide, job.limits).start()
+    running = _started(job)
     try:
         try:
             returned = running.answers(job.submission.cells)
@@ -93,6 +93,15 @@ def _run(ran: SheetRunner, job: GradeJob) -> tuple[list[Judged], list[str], tupl
         return judged, remarks + _edited(ran, job), tuple(returned.walls)
     finally:
         running.close()
+
+
+def _started(job: GradeJob) -> RunningNotebook:
+    """A process behind walls; once more in a new jail where the old one was ended, for want of memory say."""
+    try:
+        return jail(job.hide, job.limits).start()
+    except JailFailed:
+        jail.cache_clear()
+        return jail(job.hide, job.limits).start()
 
 
 def _given(returned: Returned, running: RunningNotebook) -> dict[str, Given]:

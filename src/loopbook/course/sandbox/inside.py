@@ -7,7 +7,6 @@ JSON with numbers and texts in it.
 import io
 import json
 import math
-import sys
 import traceback
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
@@ -35,11 +34,8 @@ class _Refused(Exception):
     """A value that cannot leave."""
 
 
-def run_cells(cells: list[str]) -> tuple[dict[str, Any], dict[str, Callable[..., Any]]]:
-    """Run the code cells as a kernel would. Gives what is to be said first, and the functions among the answers.
-
-    A cell that fails does not stop the next; its error is told.
-    """
+def new_shell() -> Any:
+    """What runs the cells."""
     from IPython.core.interactiveshell import InteractiveShell
     from traitlets.config import Config
 
@@ -49,7 +45,14 @@ def run_cells(cells: list[str]) -> tuple[dict[str, Any], dict[str, Callable[...,
         def enable_gui(self, gui: Any = None) -> None:
             return None
 
-    shell = Shell.instance(colors="NoColor", config=Config({"HistoryManager": {"enabled": False}}))
+    return Shell.instance(colors="NoColor", config=Config({"HistoryManager": {"enabled": False}}))
+
+
+def run_cells(shell: Any, cells: list[str]) -> tuple[dict[str, Any], dict[str, Callable[..., Any]]]:
+    """Run the code cells as a kernel would. Gives what is to be said first, and the functions among the answers.
+
+    A cell that fails does not stop the next; its error is told.
+    """
     failed = []
     sink = io.StringIO()
     for number, source in enumerate(cells, 1):
@@ -127,27 +130,19 @@ def _reply(functions: dict[str, Callable[..., Any]], order: dict[str, Any]) -> d
         return {"refused": f"{type(error).__name__}: {str(error)[:200]}"}
 
 
-def serve(orders: Any, replies: Any) -> None:
+def serve(orders: Any, replies: Any, shell: Any) -> None:
     """Read the cells, run them, tell the answers; then call functions until nobody asks any more."""
     first = json.loads(orders.readline())
     try:
-        told, functions = run_cells(first["cells"])
+        told, functions = run_cells(shell, first["cells"])
     except BaseException:
         told, functions = {"answers": None, "why": traceback.format_exc(limit=1)[-300:], "failed": []}, {}
-    _say(replies, {**told, "walls": first["walls"]})
+    say(replies, told)
     for line in orders:
-        _say(replies, _reply(functions, json.loads(line)))
+        say(replies, _reply(functions, json.loads(line)))
 
 
-def _say(replies: Any, told: dict[str, Any]) -> None:
+def say(replies: Any, told: dict[str, Any]) -> None:
+    """Write one line of JSON."""
     replies.write(json.dumps(told, allow_nan=False) + "\n")
     replies.flush()
-
-
-def main() -> None:
-    """With the pipes as files 0 and 1, where nothing forks."""
-    serve(sys.stdin, sys.stdout)
-
-
-if __name__ == "__main__":
-    main()

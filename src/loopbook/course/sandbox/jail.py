@@ -17,17 +17,33 @@ import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from derivations.errors import LoopbookError
 from loopbook.course.sandbox.limits import NotebookLimits
+from loopbook.course.sandbox.walls import SCRATCH, enterable
+from notebook_reports.project.project import EnvironmentProblem
 
 ENDING = 5.0
 """Seconds that the processes of a notebook may take to end."""
+STARTING = 60.0
+"""Seconds that its walls may take."""
 LONGEST = 4 << 20
 """Bytes of one message."""
+NO_NOTEBOOK = "no student's notebook can be run on this machine"
+_TRIAL = (
+    "import sympy, numpy as np, scipy.signal\nfrom scipy.optimize import brentq",
+    "open('written.txt', 'w').write(str(sympy.Rational(1, 2)))",
+    "answers = {'five': float(np.linalg.norm([3, 4])), 'half': float(brentq(lambda x: 2 * x - 1, 0, 2))}",
+    "answers['twice'] = lambda x: 2 * x",
+)
+_EXPECTED = {"five": 5.0, "half": 0.5}
+
+
+class JailFailed(EnvironmentProblem):
+    """This machine cannot run any notebook, or no longer; the message says why. It is no student's fault."""
 
 
 class NotebookFailed(LoopbookError):
@@ -52,17 +68,29 @@ class RunningNotebook:
     def __init__(self, pid: int, orders: int, replies: int, limits: NotebookLimits):
         self._pid, self._orders, self._replies, self._limits = pid, orders, replies, limits
         self._rest = b""
-        self._ends = time.monotonic() + limits.seconds
         os.set_blocking(replies, False)
+        self.walls = self._shut_in()
+        self._ends = time.monotonic() + limits.seconds
+
+    def _shut_in(self) -> list[str]:
+        """Wait until its walls stand; which. Raises JailFailed."""
+        try:
+            told = self._line(STARTING, "its walls")
+        except NotebookFailed as failed:
+            self.close()
+            raise JailFailed(f"{NO_NOTEBOOK}: {failed}") from None
+        if "no jail" in told:
+            self.close()
+            raise JailFailed(f"{NO_NOTEBOOK}: {told['no jail']}")
+        return [str(w) for w in told.get("walls", [])]
 
     def answers(self, cells: Sequence[str]) -> Returned:
         """Run the cells. Raises NotebookFailed."""
         self._say({"cells": list(cells)})
         told = self._line(self._ends - time.monotonic(), "the whole notebook")
-        found = Returned()
+        found = Returned(walls=self.walls)
         with suppress(TypeError, ValueError):
             found.failed = [(int(n), str(text)[:300]) for n, text in told.get("failed", [])]
-        found.walls = [str(w) for w in told.get("walls", [])][:10]
         if not isinstance(told.get("answers"), dict):
             first = f"; cell {found.failed[0][0]} raised {found.failed[0][1]}" if found.failed else ""
             raise NotebookFailed(
@@ -154,53 +182,84 @@ def _is_plain(value: Any, depth: int = 0) -> bool:
 
 class Jail:
     """Starts notebooks. hide: folders that none of them may see: keys, other submissions. number: of this jail among
-    those that run at a time; each notebook runs as a user of its own."""
+    those that run at a time; each notebook runs as a user of its own.
+
+    It first runs a notebook of ours, with functions and packages, so that what fails later is the student's. Raises
+    JailFailed where that one does not come out right.
+    """
 
     def __init__(self, hide: Sequence[Path] = (), limits: NotebookLimits | None = None, number: int = 0):
         if sys.platform != "linux":
-            raise NotebookFailed("notebooks are run on Linux only: type the answers into a CSV, or grade on Linux")
+            raise JailFailed("notebooks are run on Linux only: type the answers into a CSV, or grade on Linux")
         self.limits = limits or NotebookLimits()
-        self._hide = [str(h) for p in hide if (h := p.resolve()).is_dir()]
-        source = Path(__file__).parents[3]
-        self._needed = list(dict.fromkeys([sys.prefix, sys.base_prefix, str(source), os.path.dirname(os.__file__)]))
+        self._hide = [str(h) for p in (*hide, *_home()) if (h := p.resolve()).is_dir() and h != h.parent]
         self._started, self._number = 0, number
-        self._folder = Path(tempfile.mkdtemp(prefix="lb-course-"))
+        place = next(filter(enterable, dict.fromkeys((tempfile.gettempdir(), *SCRATCH))), None)
+        self._folder = Path(tempfile.mkdtemp(prefix="lb-course-", dir=place))
         self._folder.chmod(0o711)
         ours, theirs = socket.socketpair()
-        env = {**_environment(), "HOME": str(self._folder)}
-        with theirs:
+        env = {**_environment(), "HOME": str(self._folder), "TMPDIR": str(self._folder)}
+        with theirs, (self._folder / "said").open("wb") as said:
             self._process = subprocess.Popen(
                 [sys.executable, "-P", "-m", "loopbook.course.sandbox.zygote"],
                 stdin=theirs.fileno(),
                 stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
+                stderr=said,
                 env=env,
                 cwd="/",
                 start_new_session=True,
             )
         self._socket = ours
-        if self._socket.recv(16) != b"ready":
-            raise NotebookFailed("no notebook can be run on this machine: its process does not start")
+        try:
+            if self._socket.recv(16) != b"ready":
+                lines = (self._folder / "said").read_text(errors="replace").strip().splitlines()
+                raise JailFailed(f"{NO_NOTEBOOK}: {lines[-1] if lines else 'its process does not start'}")
+            self.walls = self._tried()
+        except BaseException:
+            self.close()
+            raise
+
+    def _tried(self) -> list[str]:
+        """Run the notebook of ours; the walls that stand."""
+        running = self._begin(replace(self.limits, seconds=STARTING, call=STARTING))
+        try:
+            found = running.answers(_TRIAL)
+            if found.answers != _EXPECTED or running.call("twice", 2) != 4 or found.failed:
+                told = "; ".join(text for _, text in found.failed) or f"{found.answers} for {_EXPECTED}"
+                raise JailFailed(f"{NO_NOTEBOOK}: a trial gave {told}")
+        except NotebookFailed as failed:
+            raise JailFailed(f"{NO_NOTEBOOK}: in a trial {failed}") from None
+        finally:
+            running.close()
+        return running.walls
 
     def start(self) -> RunningNotebook:
-        """A process for one notebook."""
+        """A process for one notebook, behind the walls of the trial. Raises JailFailed."""
+        running = self._begin(self.limits)
+        if running.walls != self.walls:
+            running.close()
+            missing = ", ".join(w for w in self.walls if w not in running.walls)
+            raise JailFailed(f"a notebook was not run: {missing or 'a wall'} stood before and does not now")
+        return running
+
+    def _begin(self, limits: NotebookLimits) -> RunningNotebook:
         self._started += 1
         user = self._number * 400 + self._started % 400
         folder = self._folder / f"n{self._started}"
         orders_in, orders_out = os.pipe()
         replies_in, replies_out = os.pipe()
-        order = {
-            "user": user,
-            "folder": str(folder),
-            "hide": self._hide,
-            "needed": self._needed,
-            "limits": self.limits.data(),
-        }
-        socket.send_fds(self._socket, [json.dumps(order).encode()], [orders_in, replies_out])
-        os.close(orders_in)
-        os.close(replies_out)
-        pid = json.loads(self._socket.recv(1 << 12))["pid"]
-        return RunningNotebook(pid, orders_out, replies_in, self.limits)
+        order = {"user": user, "folder": str(folder), "hide": self._hide, "limits": limits.data()}
+        try:
+            socket.send_fds(self._socket, [json.dumps(order).encode()], [orders_in, replies_out])
+            pid = json.loads(self._socket.recv(1 << 12))["pid"]
+        except (OSError, ValueError):
+            os.close(orders_out)
+            os.close(replies_in)
+            raise JailFailed("the process that starts students' notebooks was ended; grade again") from None
+        finally:
+            os.close(orders_in)
+            os.close(replies_out)
+        return RunningNotebook(pid, orders_out, replies_in, limits)
 
     def close(self) -> None:
         """End the zygote; remove what notebooks left."""
@@ -208,6 +267,16 @@ class Jail:
         self._process.wait()
         self._socket.close()
         shutil.rmtree(self._folder, ignore_errors=True)
+
+
+def _home() -> list[Path]:
+    """The home of the one who grades: by the list of users, as HOME may name any folder."""
+    import pwd
+
+    try:
+        return [Path(pwd.getpwuid(os.getuid()).pw_dir)]
+    except KeyError:
+        return []
 
 
 def _environment() -> dict[str, str]:

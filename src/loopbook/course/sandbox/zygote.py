@@ -11,8 +11,10 @@ import os
 import signal
 import socket
 import sys
+import tempfile
 
 from loopbook.course.sandbox import walls
+from loopbook.course.sandbox.inside import new_shell, say
 from loopbook.course.sandbox.inside import serve as run_notebook
 from loopbook.course.sandbox.limits import impose
 
@@ -71,37 +73,48 @@ def _guard(order: dict, files: list[int]) -> None:
 
 
 def _become(order: dict, files: list[int], stands: list[str]) -> None:
-    """Turn this process into the notebook's."""
-    own = order["folder"]
-    if "hidden folders" in stands:
-        walls.hide(order["hide"], order["needed"], own, order["limits"]["file"])
+    """Turn this process into the notebook's, or say why that cannot be."""
+    reading, writing = os.fdopen(files[0], "r"), os.fdopen(files[1], "w")
+    try:
+        stands = _shut_in(order, stands)
+        shell = new_shell()
+    except BaseException as error:
+        say(writing, {"no jail": f"{type(error).__name__}: {error}"})
+        return
+    say(writing, {"walls": stands})
+    run_notebook(reading, writing, shell)
+
+
+def _shut_in(order: dict, stands: list[str]) -> list[str]:
+    """Make the walls round this process. Gives what stands; raises OSError where Python cannot be reached inside."""
+    own, needed = order["folder"], python_folders()
+    if walls.HIDDEN in stands:
+        stands = [w for w in stands if w != walls.HIDDEN]
+        stands = [*walls.hide(order["hide"], needed, order["limits"]["file"]), *stands]
+        own = f"{walls.SCRATCH[0]}/{os.path.basename(own)}"
     os.makedirs(own, exist_ok=True)
     if walls.become(order["user"], own):
-        stands.insert(0, "another user")
+        stands = [walls.OTHER_USER, *stands]
+    for folder in needed:
+        if not os.access(folder, os.R_OK | os.X_OK):
+            raise OSError(f"the user that it would run as may not read {folder}; `chmod -R a+rX {folder}` lets it")
     os.chdir(own)
     os.environ.update({"HOME": own, "TMPDIR": own, "MPLCONFIGDIR": own, "IPYTHONDIR": own})
-    impose(order["limits"], "own processes" in stands)
+    tempfile.tempdir = None
+    impose(order["limits"], walls.OWN_PROCESSES in stands)
     numpy = sys.modules.get("numpy")
     if numpy is not None:
         numpy.random.seed()
-    reading, writing = os.fdopen(files[0], "r"), os.fdopen(files[1], "w")
     nothing = os.open(os.devnull, os.O_RDWR)
     for target in (0, 1, 2):
         os.dup2(nothing, target)
-    run_notebook(_WithWalls(reading, stands), writing)
+    return [w for w in walls.WALLS if w in stands]
 
 
-class _WithWalls:
-    """The orders, the walls that stand added to the first."""
-
-    def __init__(self, orders: object, stands: list[str]):
-        self._orders, self._stands = orders, stands
-
-    def readline(self) -> str:
-        return json.dumps({**json.loads(self._orders.readline()), "walls": self._stands})  # type: ignore[attr-defined]
-
-    def __iter__(self):  # type: ignore[no-untyped-def]
-        return iter(self._orders)  # type: ignore[call-overload]
+def python_folders() -> list[str]:
+    """The folders that Python and its packages are read from: by the name they are known by, and where they lie."""
+    named = [os.path.abspath(p) for p in (sys.prefix, sys.base_prefix, sys.exec_prefix, *sys.path) if p]
+    return [p for p in dict.fromkeys([*named, *map(os.path.realpath, named)]) if os.path.isdir(p) and p != "/"]
 
 
 def main() -> None:
