@@ -1,4 +1,4 @@
-"""The walls stand wherever the project lies and whoever grades; where they cannot, the run fails and no student does."""
+"""The walls stand wherever the project lies and whoever grades; where they cannot, the run fails, no student."""
 
 import json
 import os
@@ -34,7 +34,8 @@ from loopbook.course.sandbox.jail import Jail
 
 jail = Jail([Path(p) for p in sys.argv[1:]])
 running = jail.start()
-lines = ["import loopbook as lb, scipy.stats, os", "answers = {'K': lb.tune(lb.StepData(2.0, 40.0, 8.0), 'simc-pi').K, 'place': lb.__file__}"]
+lines = ["import loopbook as lb, scipy.stats, os\\npi = lb.tune(lb.StepData(2.0, 40.0, 8.0), 'simc-pi')"]
+lines.append("answers = {'K': pi.K, 'place': lb.__file__}")
 for name in sys.argv[1:]:
     lines.append(f"answers[{name!r}] = os.listdir({name!r})")
 lines.append("open(os.path.dirname(lb.__file__) + '/planted.py', 'w')")
@@ -75,9 +76,9 @@ def test_a_project_below_tmp_with_blanks_that_only_its_owner_may_enter(project):
     place = str(project / "src" / "loopbook" / "__init__.py")
     assert found["answers"]["K"] == 1.25 and found["answers"]["place"] == place
     if HIDDEN in found["walls"]:
-        assert keys not in found["answers"] and "FileNotFoundError" in found["failed"][0][1]
+        assert found["answers"][keys] == []
     if UNWRITABLE in found["walls"]:
-        assert found["failed"][-1][0] == 4 and "Error" in found["failed"][-1][1]
+        assert "Error" in found["failed"][-1][1]
     assert not (project / "src" / "loopbook" / "planted.py").exists()
     assert not list((project / "tmp").iterdir())
 
