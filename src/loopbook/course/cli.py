@@ -6,13 +6,16 @@ import sys
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from derivations.errors import LoopbookError
 from notebook_reports.cli import say
 from notebook_reports.project.project import UsageError
+
+if TYPE_CHECKING:
+    from loopbook.course.workers import Executor
 
 FORMATS = ("moodle", "gift", "csv", "nbgrader", "otter")
 
@@ -93,9 +96,17 @@ def check(sheets: tuple[str, ...], draws: int) -> None:
 @click.option("--no-pdf", is_flag=True, help="Notebooks only.")
 @click.option("--zip", "zips", is_flag=True, help="For each student an archive as well.")
 @click.option("-j", "--jobs", type=click.IntRange(min=1), help="Processes at a time; default: one per core.")
+@click.option("--cluster", metavar="N|tcp://HOST:PORT", help="On Dask's workers: N started here, or a scheduler's.")
 @usable
 def release(
-    sheets: tuple[str, ...], students: Path, secret_file: Path, output: Path, no_pdf: bool, zips: bool, jobs: int | None
+    sheets: tuple[str, ...],
+    students: Path,
+    secret_file: Path,
+    output: Path,
+    no_pdf: bool,
+    zips: bool,
+    jobs: int | None,
+    cluster: str | None,
 ) -> None:
     """Numbers for each student, drawn by the secret; notebooks and PDFs; keys and a manifest for the teacher.
 
@@ -105,12 +116,11 @@ def release(
     from loopbook.course.release.release import read_sheets
     from loopbook.course.release.release import release as release_all
     from loopbook.course.release.roster import read_roster
-    from loopbook.course.workers import Processes
 
     roster = read_roster(students)
     key = read_secret(secret_file, _repository(output))
     found = read_sheets([sheet_path(name) for name in sheets])
-    done = release_all(found, roster, key, output, Processes(jobs), not no_pdf, zips, _progress("released"))
+    done = release_all(found, roster, key, output, _executor(jobs, cluster), not no_pdf, zips, _progress("released"))
     for line in (*done.remarks, *done.problems):
         say(line, err=True)
     say(f"{done.students} students, {done.files} files in {output}")
@@ -127,16 +137,23 @@ def release(
 @click.option("--format", "formats", default="pdf,html", show_default=True, help="Of the feedback.")
 @click.option("--seconds", type=click.FloatRange(min=1), default=60.0, show_default=True, help="For one notebook.")
 @click.option("-j", "--jobs", type=click.IntRange(min=1), help="Processes at a time; default: one per core.")
+@click.option("--cluster", metavar="N|tcp://HOST:PORT", help="On Dask's workers: N started here, or a scheduler's.")
 @usable
 def grade(
-    submissions: Path, output: Path, released: Path | None, keys: bool, formats: str, seconds: float, jobs: int | None
+    submissions: Path,
+    output: Path,
+    released: Path | None,
+    keys: bool,
+    formats: str,
+    seconds: float,
+    jobs: int | None,
+    cluster: str | None,
 ) -> None:
     """Judge the notebooks and CSVs in SUBMISSIONS: feedback for each student, grades.csv for the class."""
     from loopbook.course.grade.grading import grade as grade_all
     from loopbook.course.release.manifest import FILE, read_manifest
     from loopbook.course.release.release import TEACHER
     from loopbook.course.sandbox.limits import NotebookLimits
-    from loopbook.course.workers import Processes
 
     chosen = tuple(dict.fromkeys(f.strip() for f in formats.split(",") if f.strip()))
     if unknown := set(chosen) - {"pdf", "html"}:
@@ -146,7 +163,7 @@ def grade(
     limits = NotebookLimits(seconds=seconds)
     hide = [folder.parent, folder.resolve().parents[1]]
     done = grade_all(
-        submissions, output, manifest, folder, Processes(jobs), hide, chosen, keys, limits, _progress("judged")
+        submissions, output, manifest, folder, _executor(jobs, cluster), hide, chosen, keys, limits, _progress("judged")
     )
     say(f"{len(done.judged)} judged, grades in {output / 'grades.csv'}")
     for file, what in done.unread:
@@ -187,6 +204,16 @@ def sheet_path(name: str) -> Path:
     known = sorted(p.stem for p in (folder / "exercises").glob("*.ipynb")) if folder else []
     hint = f"; there are {', '.join(known)}" if known else ""
     raise UsageError(f"no sheet {name!r}{hint}")
+
+
+def _executor(jobs: int | None, cluster: str | None) -> "Executor":
+    from loopbook.course.workers import Processes
+
+    if cluster is None:
+        return Processes(jobs)
+    from loopbook.course.cluster import Cluster
+
+    return Cluster(cluster)
 
 
 def _repository(output: Path) -> Path | None:

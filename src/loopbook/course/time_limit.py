@@ -1,4 +1,4 @@
-"""A block that may take so many seconds."""
+"""A block that may take so many seconds of a processor: a machine that does other things costs it nothing."""
 
 import signal
 import threading
@@ -9,8 +9,9 @@ from typing import Any
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Raises TimeoutError in the block when the time is over; where the system has no alarm, or outside of the main
-    thread, the block takes its time.
+    """Raises TimeoutError in the block when the time is over.
+
+    Where the system has no such timer, or outside of the main thread, the block takes its time.
 
     >>> with time_limit(5):
     ...     1 + 1
@@ -21,12 +22,12 @@ def time_limit(seconds: float) -> Iterator[None]:
         return
 
     def over(*_: Any) -> None:
-        raise TimeoutError(f"not done within {seconds:g} s")
+        raise TimeoutError(f"not done within {seconds:g} s of a processor")
 
-    before = signal.signal(signal.SIGALRM, over)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGPROF, over)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)

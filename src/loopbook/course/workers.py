@@ -1,7 +1,7 @@
 """Many jobs on this machine: processes of their own, in the surroundings of every kernel, so that bytes do not differ.
 
-A job is a function of the module's top and plain data; what it gives is plain data too. So another executor, of many
-machines, can take the place of this one.
+A job is a function of the module's top and plain data; what it gives is plain data too. So the other executor, of many
+machines, takes the place of this one: `loopbook.course.cluster`.
 """
 
 import os
@@ -53,7 +53,7 @@ class Processes:
         while waiting:
             alone = any(waiting.values())  # after a process was killed, one at a time: then it is known by whose job
             todo = list(waiting)[:1] if alone else list(waiting)
-            with _surroundings(), ProcessPoolExecutor(1 if alone else self.number, _context()) as pool:
+            with surroundings(), ProcessPoolExecutor(1 if alone else self.number, _context()) as pool:
                 futures: dict[Future[Result], int] = {pool.submit(function, jobs[place]): place for place in todo}
                 for future in as_completed(futures):
                     place = futures[future]
@@ -84,7 +84,7 @@ def cores() -> int:
 
 
 @contextmanager
-def _surroundings() -> Iterator[None]:
+def surroundings() -> Iterator[None]:
     """Processes that start inside the block have the environment of a kernel, and draw without a screen."""
     before = dict(os.environ)
     os.environ.clear()
