@@ -19,13 +19,16 @@ from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
+from derivations.errors import LoopbookError
+from loopbook.course.workers import PRELOADED, surroundings
+
 LENGTH = struct.Struct(">Q")
 READY = b"ready"
 STARTING = 120.0
 """Seconds that its imports may take; they are not the job's."""
 
 
-class Ended(Exception):
+class Ended(LoopbookError):
     """The process ended before its job was done."""
 
 
@@ -51,8 +54,6 @@ class Served:
                 raise Ended(f"the process of a job was ended: {error}") from None
 
     def _started(self) -> "subprocess.Popen[bytes]":
-        from loopbook.course.workers import surroundings
-
         if self._process is None or self._process.poll() is not None:
             with surroundings():
                 order = [sys.executable, "-P", "-m", "loopbook.course.served"]
@@ -96,8 +97,6 @@ def _read(file: int, size: int, ends: float) -> bytes:
 
 def main() -> None:
     """Do jobs until nobody asks any more. What a job prints goes nowhere."""
-    from loopbook.course.workers import PRELOADED
-
     orders, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nothing = os.open(os.devnull, os.O_RDWR)
     os.dup2(nothing, 0)

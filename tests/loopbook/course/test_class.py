@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from loopbook.cli import main
-from notebook_reports.export.write.pdf_text import PdfText
+from notebook_reports.export.read.pdf_text import PdfText
 
 sys.path.insert(0, str(Path(__file__).parent / "proof"))
 import class_of

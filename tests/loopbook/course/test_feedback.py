@@ -4,7 +4,7 @@ import pytest
 
 from loopbook.course.grade.one import GradeJob, grade_one
 from loopbook.course.grade.submissions import Submission
-from notebook_reports.export.write.pdf_text import PdfText
+from notebook_reports.export.read.pdf_text import PdfText
 
 pytestmark = pytest.mark.builds
 

@@ -53,7 +53,7 @@ def verdicts(ran, numbers, found):
 @pytest.mark.parametrize("path", SHEETS, ids=lambda p: p.stem)
 def test_right_rounded_each_wrong_method_with_its_consequences_and_garbage(path, share):
     if SHEETS.index(path) % share(4, 1):
-        pytest.skip("looked at by `make whole`")
+        pytest.skip("looked at by `make test WHOLE=1`")
     sheet, ran = path.stem, runner(path.stem, path.read_bytes())
     numbers = first_good(ran)
     right = verdicts(ran, numbers, class_of.answers(sheet, numbers, "right"))

@@ -17,7 +17,7 @@ CHAPTERS = sorted(p for p in (prove.ROOT / "notebooks").glob("*/[0-9]*.ipynb"))
 @pytest.mark.parametrize("path", prove.SHEETS, ids=lambda p: p.stem)
 def test_a_sheet_agrees_with_its_solution_by_hand_and_bears_rounded_inputs(path, share):
     if prove.SHEETS.index(path) % share(3, 1):
-        pytest.skip("looked at by `make whole`")
+        pytest.skip("looked at by `make test WHOLE=1`")
     proof = prove.prove(path, draws=400, close=1, whole=False)
     assert not proof.faults and proof.good and proof.looked
 

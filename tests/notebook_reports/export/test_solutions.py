@@ -6,8 +6,8 @@ from notebook_reports.display import Listing
 from notebook_reports.export.book import Chapter, export_book
 from notebook_reports.export.exporters.choose import export
 from notebook_reports.export.read.notebook import read
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.export.read.solutions import ALONE, LAST, LEFT_OUT, arranged, has_solutions
-from notebook_reports.export.write.pdf_text import PdfText
 
 
 def tagged(make, text, tag, *outputs):

@@ -6,8 +6,8 @@ import re
 
 import pytest
 from tools.pages.page_words import in_the_text, text_of
-from tools.pages.pdf_text import PdfText
 
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.memory import stamps
 from notebook_reports.pages import publish as pages

@@ -20,7 +20,7 @@ from loopbook.course.release.printed import printed_answer
 from loopbook.course.release.student import ANSWERS, answers_cell
 from loopbook.course.running import Solved
 from loopbook.course.sheet import Sheet
-from notebook_reports.export.write.pdf_text import PdfText
+from notebook_reports.export.read.pdf_text import PdfText
 
 SHORTEST_LINE = 12
 """Characters, without blanks, from which on a line of the solution is told from prose."""

@@ -96,7 +96,7 @@ def _text(sheet: Sheet, cell: SourceCell, solved: Solved) -> Cell:
 def _asks(asked: Asked) -> Iterator[str]:
     """What a student has to write for one answer."""
     if isinstance(asked.kind, Choice) and asked.kind.reasons:
-        yield "\n".join(f"- {letter}) {reason}" for letter, reason in asked.kind.letters.items())
+        yield "\n\n".join(f"{letter}) {reason}" for letter, reason in asked.kind.letters.items())
     says = f" ({asked.says})" if asked.says else ""
     yield f"→ `{asked.name}`{says}: {wanted(asked.kind, asked.points)}"
 

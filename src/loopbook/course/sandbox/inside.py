@@ -137,12 +137,12 @@ def serve(orders: Any, replies: Any, shell: Any) -> None:
         told, functions = run_cells(shell, first["cells"])
     except BaseException:
         told, functions = {"answers": None, "why": traceback.format_exc(limit=1)[-300:], "failed": []}, {}
-    say(replies, told)
+    tell_line(replies, told)
     for line in orders:
-        say(replies, _reply(functions, json.loads(line)))
+        tell_line(replies, _reply(functions, json.loads(line)))
 
 
-def say(replies: Any, told: dict[str, Any]) -> None:
+def tell_line(replies: Any, told: dict[str, Any]) -> None:
     """Write one line of JSON."""
     replies.write(json.dumps(told, allow_nan=False) + "\n")
     replies.flush()

@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 from loopbook.course.sandbox import walls
-from loopbook.course.sandbox.inside import new_shell, say
+from loopbook.course.sandbox.inside import new_shell, tell_line
 from loopbook.course.sandbox.inside import serve as run_notebook
 from loopbook.course.sandbox.limits import impose
 
@@ -79,9 +79,9 @@ def _become(order: dict, files: list[int], stands: list[str]) -> None:
         stands = _shut_in(order, stands)
         shell = new_shell()
     except BaseException as error:
-        say(writing, {"no jail": f"{type(error).__name__}: {error}"})
+        tell_line(writing, {"no jail": f"{type(error).__name__}: {error}"})
         return
-    say(writing, {"walls": stands})
+    tell_line(writing, {"walls": stands})
     run_notebook(reading, writing, shell)
 
 
