@@ -3,22 +3,18 @@
 Whoever reaches a scheduler's port runs code on its workers: docs/security.md.
 """
 
-import hashlib
-import importlib.metadata
-import platform
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
-from pathlib import Path
 from typing import Any
 
+from loopbook.course.done import fingerprint
 from loopbook.course.served import Ended, Served
 from loopbook.course.workers import TRIES, Job, Result, surroundings
 from notebook_reports.project.project import EnvironmentProblem, UsageError
 
 SECONDS = 600.0
 """For one job."""
-PACKAGES = ("numpy", "scipy", "sympy", "matplotlib", "nbformat", "nbconvert", "typst", "fonttools")
 
 
 class Cluster:
@@ -123,13 +119,3 @@ def _alike(client: Any, where: str) -> None:
             if found.get(name) != value:
                 told = f"has {name} {found.get(name)}, this machine {value}"
                 raise EnvironmentProblem(f"--cluster {where}: {worker} {told}; results would differ: install the same")
-
-
-def fingerprint() -> dict[str, str]:
-    """What results depend on: our sources, Python, the packages."""
-    source, digest = Path(__file__).parents[2], hashlib.sha256()
-    for package in ("derivations", "loopbook", "notebook_reports"):
-        for path in sorted((source / package).rglob("*.py")):
-            digest.update(path.relative_to(source).as_posix().encode() + b"\0" + path.read_bytes())
-    versions = {name: importlib.metadata.version(name) for name in PACKAGES}
-    return {"loopbook's sources": digest.hexdigest()[:12], "Python": platform.python_version(), **versions}

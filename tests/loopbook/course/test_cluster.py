@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from loopbook.course.cluster import Cluster, fingerprint
+from loopbook.course.cluster import Cluster
+from loopbook.course.done import fingerprint
 from loopbook.course.release.one import ReleaseJob, release_one
 from loopbook.course.served import Ended, Served
 from loopbook.course.workers import Processes, surroundings

@@ -4,9 +4,10 @@ import csv
 import io
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
+from loopbook.course.done import FOLDER, DoneJobs
 from loopbook.course.errors import CourseError
 from loopbook.course.grade.one import Graded, GradeJob, grade_one
 from loopbook.course.grade.submissions import Collected, Submission, collect
@@ -54,8 +55,10 @@ def grade(
     hidden = tuple(dict.fromkeys(str(p.resolve()) for p in (folder, release, out, *hide)))
     jobs = [_job(one, sheets, manifest, hidden, formats, keys, limits or NotebookLimits()) for one in collected.found]
     done = Grades(unread=list(collected.unread))
-    for number, (place, found) in enumerate(executor.run(grade_one, jobs), 1):
-        _note(done, out, jobs[place].submission, found)
+    kept = DoneJobs(out, out / FOLDER)
+    todo = [job for job in jobs if not _graded_before(done, kept, job)]
+    for number, (place, found) in enumerate(executor.run(grade_one, todo), len(jobs) - len(todo) + 1):
+        _note(done, out, kept, todo[place], found)
         tell(number, len(jobs))
     done.unread += _not_handed_in(collected, manifest)
     done.unread.sort()
@@ -84,17 +87,44 @@ def _sheet(path: Path) -> bytes:
         raise CourseError(f"the released sheet {path} cannot be read: {error.strerror}") from None
 
 
-def _note(done: Grades, out: Path, one: Submission, found: Graded | Exception) -> None:
+def _place(one: Submission) -> str:
+    return f"{one.student}/{one.sheet}"
+
+
+def _same(job: GradeJob) -> GradeJob:
+    """The job without what changes nothing of its result."""
+    return replace(job, hide=())
+
+
+def _graded_before(done: Grades, kept: DoneJobs, job: GradeJob) -> bool:
+    noted = kept.find(_place(job.submission), _same(job))
+    if noted is None:
+        return False
+    judged = [Judged(**{**one, "own": tuple(one["own"])}) for one in noted["judged"]]
+    _add(done, job.submission, Graded(judged, {}, noted["remarks"], tuple(noted["walls"])))
+    return True
+
+
+def _note(done: Grades, out: Path, kept: DoneJobs, job: GradeJob, found: Graded | Exception) -> None:
+    one = job.submission
     if isinstance(found, JailFailed):
         raise found
     if isinstance(found, Exception):
         done.unread.append((one.file, f"could not be judged: {found}"))
         return
+    _add(done, one, found)
+    files = {f"{FEEDBACK}/{_place(one)}.{format}": content for format, content in found.feedback.items()}
+    for name, content in files.items():
+        atomic.write(out / name, content)
+    if found.ended:
+        noted = {"judged": [asdict(j) for j in found.judged], "remarks": found.remarks, "walls": found.walls}
+        kept.note(_place(one), _same(job), noted, files)
+
+
+def _add(done: Grades, one: Submission, found: Graded) -> None:
     done.judged[one.student, one.sheet] = found.judged
     done.remarks += [(one.file, remark) for remark in found.remarks]
     done.walls |= {found.walls} if found.walls else set()
-    for format, content in found.feedback.items():
-        atomic.write(out / FEEDBACK / one.student / f"{one.sheet}.{format}", content)
 
 
 def _not_handed_in(collected: Collected, manifest: Manifest) -> list[tuple[str, str]]:

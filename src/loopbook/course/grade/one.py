@@ -38,12 +38,14 @@ class GradeJob:
 
 @dataclass(frozen=True)
 class Graded:
-    """What came of it. remarks: for the teacher; walls: what a notebook was shut in by."""
+    """What came of it. remarks: for the teacher; walls: what a notebook was shut in by. ended: it came to its end by
+    itself; one that did not, for want of time say, is run again when the class is graded again."""
 
     judged: list[Judged] = field(default_factory=list)
     feedback: dict[str, bytes] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
     walls: tuple[str, ...] = ()
+    ended: bool = True
 
 
 @functools.lru_cache(maxsize=1)
@@ -59,11 +61,11 @@ def grade_one(job: GradeJob) -> Graded:
     ran = runner(job.submission.sheet, job.content)
     if job.submission.answers is not None:
         solved, judged = _typed(ran, job, job.submission.answers)
-        remarks, walls = _unknown(job.submission.answers, solved), tuple[str, ...]()
+        remarks, walls, ended = _unknown(job.submission.answers, solved), tuple[str, ...](), True
     else:
-        judged, remarks, walls = _run(ran, job)
+        judged, remarks, walls, ended = _run(ran, job)
     content = feedback(ran.sheet, job.submission.student, job.name, judged, remarks, job.keys)
-    return Graded(judged, _reports(content, ran, job.formats), remarks, walls)
+    return Graded(judged, _reports(content, ran, job.formats), remarks, walls, ended)
 
 
 def _typed(ran: SheetRunner, job: GradeJob, typed: Mapping[str, str]) -> tuple[Solved, list[Judged]]:
@@ -78,7 +80,7 @@ def _unknown(names: Mapping[str, Any], solved: Solved) -> list[str]:
     ]
 
 
-def _run(ran: SheetRunner, job: GradeJob) -> tuple[list[Judged], list[str], tuple[str, ...]]:
+def _run(ran: SheetRunner, job: GradeJob) -> tuple[list[Judged], list[str], tuple[str, ...], bool]:
     """Run the student's notebook behind its walls, and judge what comes out while its functions can be called."""
     running = _started(job)
     try:
@@ -86,11 +88,11 @@ def _run(ran: SheetRunner, job: GradeJob) -> tuple[list[Judged], list[str], tupl
             returned = running.answers(job.submission.cells)
         except NotebookFailed as failed:
             _, judged = judge_all(ran, job.numbers, {})
-            return judged, [str(failed)], ()
+            return judged, [str(failed)], (), False
         solved, judged = judge_all(ran, job.numbers, _given(returned, running))
         names = dict.fromkeys((*returned.answers, *returned.functions, *returned.refused))
         remarks = [*(f"cell {n} raised {text}" for n, text in returned.failed), *_unknown(names, solved)]
-        return judged, remarks + _edited(ran, job), tuple(returned.walls)
+        return judged, remarks + _edited(ran, job), tuple(returned.walls), True
     finally:
         running.close()
 

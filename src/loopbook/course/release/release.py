@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from loopbook.course.done import FOLDER, DoneJobs
 from loopbook.course.errors import CourseError, SheetError
 from loopbook.course.notebooks import source_of
 from loopbook.course.release.draw import Draw
@@ -125,12 +126,16 @@ def release(
         for id, content in sheets.items()
         for student in roster
     ]
-    for number, (place, made) in enumerate(executor.run(release_one, jobs), 1):
-        job = jobs[place]
+    kept = DoneJobs(out, teacher / FOLDER)
+    found = {_place(job): kept.find(_place(job), job) for job in jobs}
+    done.files += sum(noted["files"] for noted in found.values() if noted is not None)
+    todo = [job for job in jobs if found[_place(job)] is None]
+    for number, (place, made) in enumerate(executor.run(release_one, todo), len(jobs) - len(todo) + 1):
+        job = todo[place]
         if isinstance(made, Exception):
             done.problems.append(f"{job.student}, {job.sheet}: {made}")
         else:
-            _write(done, out, job, made)
+            _write(done, out, kept, job, made)
         tell(number, len(jobs))
     if zip and not done.problems:
         done.files += _zips(out, roster)
@@ -138,18 +143,24 @@ def release(
     return done
 
 
-def _write(done: Released, out: Path, job: ReleaseJob, made: ReleaseFiles) -> None:
+def _place(job: ReleaseJob) -> str:
+    return f"{job.student}/{job.sheet}"
+
+
+def _write(done: Released, out: Path, kept: DoneJobs, job: ReleaseJob, made: ReleaseFiles) -> None:
     done.problems += [f"{job.student}, {leak}: not released" for leak in made.leaks]
-    for name, content in made.teacher.items():
-        atomic.write(out / TEACHER / KEYS / job.student / name, content)
-        done.files += 1
+    files = {f"{TEACHER}/{KEYS}/{job.student}/{name}": content for name, content in made.teacher.items()}
     for name, content in made.student.items():
-        path = out / STUDENTS / job.student / name
+        path = f"{STUDENTS}/{job.student}/{name}"
         if made.leaks:
-            atomic.remove(path)
+            atomic.remove(out / path)
         else:
-            atomic.write(path, content)
-            done.files += 1
+            files[path] = content
+    for path, content in files.items():
+        atomic.write(out / path, content)
+    done.files += len(files)
+    if not made.leaks:
+        kept.note(_place(job), job, {"files": len(files)}, files)
 
 
 def _zips(out: Path, roster: Sequence[Student]) -> int:
