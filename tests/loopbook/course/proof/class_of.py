@@ -81,7 +81,7 @@ def _two_digits(value):
 def hand_in(notebook: dict, found: dict) -> dict:
     """The released notebook with the answers in its last cell, as a student writes them."""
     text = "\n".join("".join(cell["source"]) for cell in notebook["cells"])
-    letters = {reason: letter for letter, reason in re.findall(r"^- (\w)\) (.*)$", text, re.MULTILINE)}
+    letters = {reason: letter for letter, reason in re.findall(r"^(\w)\) (.*)$", text, re.MULTILINE)}
     before, lines = [], []
     for name, value in found.items():
         if isinstance(value, str) and value.startswith("def "):
