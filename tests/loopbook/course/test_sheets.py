@@ -1,11 +1,13 @@
 """A share of `make prove-course`: each sheet of the project at a few draws, against a solution by hand."""
 
+import re
 import sys
 from pathlib import Path
 
 import pytest
 
 from loopbook.course.release.one import runner
+from notebook_reports.project.source import read_source
 
 sys.path.insert(0, str(Path(__file__).parent / "proof"))
 import prove_course as prove
@@ -25,6 +27,20 @@ def test_a_sheet_agrees_with_its_solution_by_hand_and_bears_rounded_inputs(path,
 def test_there_is_a_sheet_for_each_chapter_and_sixty_questions():
     questions = [c for p in prove.SHEETS for c in runner(p.stem, p.read_bytes()).sheet.cells if "question" in c.tags]
     assert len(prove.SHEETS) == len(CHAPTERS) == 17 and len(questions) >= 60
+
+
+def test_each_chapter_leads_to_its_sheet_by_its_title_and_number_of_questions():
+    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight")
+    found = {}
+    for path in CHAPTERS:
+        [text] = [c.text for c in read_source(path).cells if c.id == "exercises"]
+        title, name, number = re.match(
+            r"\*\*Exercises\.\*\* \[(.*)\]\(\.\./exercises/(\w+)\.ipynb\): (\w+) ", text
+        ).groups()
+        sheet = runner(name, (prove.ROOT / "notebooks" / "exercises" / f"{name}.ipynb").read_bytes()).sheet
+        assert (title, number) == (sheet.title, words[sum("question" in c.tags for c in sheet.cells)])
+        found[path.stem] = name
+    assert sorted(found.values()) == sorted(p.stem for p in prove.SHEETS)
 
 
 def test_the_proof_sees_a_wrong_key_and_an_answer_that_rounding_moves(monkeypatch):
