@@ -113,7 +113,7 @@ def _judgement(asked: Asked, given: Given, from_own: Asked | None, own: Sequence
         if _rounded(key, value):
             words = "right method, rounded too early" + (f", from your own {listed(names)}" if names else "")
             return _judged(asked, ROUNDED, words, text, own=names)
-    return _judged(asked, WRONG, "this is not the value", text)
+    return _judged(asked, WRONG, f"this is not the {'choice' if isinstance(asked.kind, Choice) else 'value'}", text)
 
 
 def _judged(
