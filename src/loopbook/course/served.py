@@ -106,8 +106,9 @@ def main() -> None:
     replies.write(READY)
     replies.flush()
     while head := orders.read(LENGTH.size):
-        function, job = pickle.loads(orders.read(LENGTH.unpack(head)[0]))
+        order = orders.read(LENGTH.unpack(head)[0])
         try:
+            function, job = pickle.loads(order)
             told = (True, function(job))
         except Exception as error:
             told = (False, error)

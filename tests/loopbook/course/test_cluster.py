@@ -1,11 +1,7 @@
 """Jobs on Dask's workers: the same bytes as here, whatever happens to a worker; the process that does them."""
 
-import os
-import signal
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 import pytest
 
@@ -80,27 +76,18 @@ def test_the_bytes_are_those_of_the_serial_run_also_with_a_killed_worker_and_a_t
     assert all(not isinstance(one, Exception) for one in serial.values())
     for where in ("2", scheduler):
         assert dict(Cluster(where).run(release_one, jobs)) == serial
-    found = {}
-    for place, one in Cluster(scheduler).run(_release_or_fail_once, [(str(tmp_path), job) for job in jobs]):
-        found[place] = one
-    assert found == serial and {p.name for p in tmp_path.iterdir()} >= {"killed", "slow"}
-
-
-def _release_or_fail_once(order):
-    """As `release_one`; the first of all kills the worker, the second ends its own process."""
-    folder, job = order
-    for name, act in (("killed", _kill_worker), ("slow", lambda: os._exit(1))):
-        try:
-            (Path(folder) / name).touch(exist_ok=False)
-        except FileExistsError:
-            continue
-        act()
-    return release_one(job)
-
-
-def _kill_worker():
-    os.kill(os.getppid(), signal.SIGKILL)
-    time.sleep(9)
+    faults = {
+        "killed": "o.kill(o.getppid(), 9) or __import__('time').sleep(9)",
+        "ended": "o._exit(1)",
+    }
+    words = []
+    for job, (name, fault) in zip(jobs, [*faults.items(), *[("", "")] * 9], strict=False):
+        mark = str(tmp_path / name)
+        once = f"o.path.exists({mark!r}) or open({mark!r}, 'w').close() or {fault}" if fault else "None"
+        module = "__import__('loopbook.course.release.one', fromlist=['a'])"
+        words.append(f"[o := __import__('os'), m := {module}, {once}, m.release_one(m.{job!r})][-1]")
+    assert dict(Cluster(scheduler).run(eval, words)) == serial
+    assert {p.name for p in tmp_path.iterdir()} >= set(faults)
 
 
 @pytest.mark.whole
