@@ -308,10 +308,13 @@ def test_who_keeps_every_rule_leaves_the_list(chapter):
 
 
 def test_chapters_are_linted_like_the_rest():
-    """Those not yet done are let off the width and the lambdas by name; the others by no rule that a module keeps."""
+    """Those not yet done are let off the width and the lambdas by name; the others by no rule that a module keeps.
+
+    Exercise sheets are no chapters: an `answer(...)` stands on one line with the words of its wrong methods.
+    """
     lint = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["ruff"]["lint"]
     let_off = {name for name, rules in lint["per-file-ignores"].items() if {"E501", "E731"} & set(rules)}
-    assert let_off == {f"notebooks/{name}.ipynb" for name in NOT_YET}
+    assert let_off == {"notebooks/exercises/**"} | {f"notebooks/{name}.ipynb" for name in NOT_YET}
     files = [str(FOLDER / f"{name}.ipynb") for name in DONE]
     told = subprocess.run(
         [sys.executable, "-m", "ruff", "check", "--no-cache", "--line-length", str(WIDTH), *files],
