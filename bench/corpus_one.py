@@ -48,6 +48,7 @@ def _words(notebook, page, form: str) -> dict[str, object]:
 
     from tools.pages.notebook_words import compare
     from tools.pages.page_words import in_the_text, outside, text_of
+
     from notebook_reports.export.read.pdf_text import PdfText
 
     if form == "html":
