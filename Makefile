@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling prove-course interop lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -70,6 +70,12 @@ core: dist ## the core's tests against the wheel in an environment with NumPy, S
 
 prove-scaling: $(READY) ## 2,000 seeded loops in other units of time, y and u: what comes out otherwise
 	@$(BIN)/python tests/loopbook/scaling/prove_scaling.py 2000
+
+prove-course: $(READY) ## every exercise sheet at 10,000 draws: solved, as by hand, borne by rounded inputs (DRAWS=...)
+	@$(BIN)/python tests/loopbook/course/proof/prove_course.py $(or $(DRAWS),10000) $(SHEETS)
+
+interop: $(VENV)/ready-interop ## exercise sheets in the hands of the real nbgrader and otter
+	@$(BIN)/python tests/loopbook/course/interop/prove_interop.py
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench

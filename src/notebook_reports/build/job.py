@@ -22,6 +22,7 @@ from notebook_reports.project.failures import Failure
 from notebook_reports.project.project import EnvironmentProblem, Notebook, Project
 from notebook_reports.project.source import Source
 from notebook_reports.run.canonical import canonical, dump, renew_prose
+from notebook_reports.run.filled import filled
 
 
 @dataclass(frozen=True)
@@ -210,7 +211,7 @@ def _renewed(project: Project, job: Job) -> _Result:
     """The last run's results in the prose of now."""
     stamp = job.stamp
     assert stamp is not None, "only what has a stamp is renewed"
-    plain = canonical(job.source.content, project.root, [c.id for c in job.source.cells])
+    plain = filled(canonical(job.source.content, project.root, [c.id for c in job.source.cells]), job.source)
     content = renew_prose(stamps.executed(project, job.notebook), plain)
     return _result(content, stamp.inputs, stamp.run, stamp.seconds, stamp.warnings)
 

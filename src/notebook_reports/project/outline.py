@@ -9,6 +9,7 @@ picture = { notebook = "pid_report/01_terms", figure = 1 }   # of the front page
 folder = "pid_report"          # of notebooks/
 title = "A report on the PID controller"
 about = "How it works, how it is programmed, how it is tuned."
+order = ["introduction"]       # notebooks that come first; the others follow by their names
 
 [[part.find]]                  # what the part found, with the entry of the ledger that shows it
 says = "Its tracking gain divides by the wrong time constant."
@@ -78,6 +79,7 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
         content = read_toml(path, where)
         named = [(p["folder"], p["title"], p.get("about", "")) for p in tables(content, "part", where)]
         finds = [_finds(p, where) for p in tables(content, "part", where)]
+        orders = [p.get("order", []) for p in tables(content, "part", where)]
         title, subtitle, code = content["title"], content.get("subtitle", ""), content.get("code", CODE[0])
     except TomlError as error:
         raise UsageError(str(error)) from None
@@ -97,10 +99,20 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
     if wrong:
         raise UsageError("; ".join(sorted(wrong)))
     parts = [
-        Part(*named_part, tuple(e for e in entries if e["folder"] == named_part[0]), found)
-        for named_part, found in zip(named, finds, strict=True)
+        Part(*named_part, _ordered([e for e in entries if e["folder"] == named_part[0]], order), found)
+        for named_part, found, order in zip(named, finds, orders, strict=True)
     ]
     return Outline(title, subtitle, tuple(parts), code, _picture(content.get("picture"), entries, where))
+
+
+def _ordered(entries: Sequence[Entry], order: Any) -> tuple[Entry, ...]:
+    """The entries that are named first, then the others. Raises UsageError for a name that is none of them."""
+    names = [str(entry["id"]).rpartition("/")[2] for entry in entries]
+    wrong = [name for name in order if name not in names] if isinstance(order, list) else ["which is no list"]
+    if wrong:
+        raise UsageError(f"notebooks/{FILE}: order names {', '.join(map(str, wrong))}; there are {', '.join(names)}")
+    place = {name: i for i, name in enumerate(order)}
+    return tuple(sorted(entries, key=lambda e: place.get(str(e["id"]).rpartition("/")[2], len(place))))
 
 
 def _finds(part: dict[str, Any], where: str) -> tuple[Find, ...]:
