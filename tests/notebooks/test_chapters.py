@@ -288,7 +288,7 @@ def test_with_another_value_of_any_parameter_there_is_no_verdict(chapter):
 
 
 def test_chapters_are_linted_like_the_rest():
-    """No chapter is let off the width or the lambdas; a sheet's `answer(...)` stands on one line with its wrong methods."""
+    """No chapter is let off width or lambdas; a sheet's `answer(...)` stands on one line with its wrong methods."""
     lint = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["ruff"]["lint"]
     let_off = {name for name, rules in lint["per-file-ignores"].items() if {"E501", "E731"} & set(rules)}
     assert let_off == {"notebooks/exercises/**"}
