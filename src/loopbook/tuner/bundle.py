@@ -1,0 +1,100 @@
+"""The script of the tuner's page: readable modules put together as one classic script.
+
+Each module is one file of `js/`. An import names what it takes, ``import { a, b } from "./file.js";``, an export stands
+before a function, class or constant. All modules share one scope, so a name at the top of a module is given once in the
+whole script; that, and everything else which would make the bundle differ from the modules, is an error here.
+Comments that fill a line and the indentation are left out; nothing else is changed.
+"""
+
+import re
+from functools import cache
+from pathlib import Path
+from posixpath import dirname, normpath
+
+from derivations.errors import LoopbookError
+
+FOLDER = Path(__file__).parent / "js"
+IMPORT = re.compile(r'import \{([^}]*)\} from "([^"]+)";\n')
+TOP = re.compile(r"^(?:export )?(?:async )?(?:function|class|const|let)\s+(\w+)", re.M)
+EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let)\b)", re.M)
+
+
+class BundleError(LoopbookError):
+    """The modules do not make one script; the message names the module."""
+
+
+def read(name: str) -> str:
+    """The text of a module, by its path in `js/`."""
+    return (FOLDER / name).read_text(encoding="utf-8")
+
+
+def _imports(name: str, text: str) -> list[tuple[str, list[str]]]:
+    """(module, names) of each import."""
+    found = []
+    for names, place in IMPORT.findall(text):
+        target = normpath(f"{dirname(name)}/{place}").lstrip("/")
+        found.append((target, [n.strip() for n in names.split(",") if n.strip()]))
+    return found
+
+
+def _in_order(entry: str, more: dict[str, str]) -> dict[str, str]:
+    """Every module that an entry reaches, those that are imported first. more: texts of modules that are no files."""
+    texts: dict[str, str] = {}
+    waiting: list[str] = []
+
+    def visit(name: str) -> None:
+        if name in texts:
+            return
+        if name in waiting:
+            raise BundleError(f"{name}: modules import each other in a circle: {' -> '.join([*waiting, name])}")
+        text = more.get(name) or read(name)
+        waiting.append(name)
+        for other, names in _imports(name, text):
+            visit(other)
+            missing = sorted(set(names) - set(exports(texts[other])))
+            if missing:
+                raise BundleError(f"{name}: {other} does not export {', '.join(missing)}")
+        waiting.remove(name)
+        texts[name] = text
+
+    visit(entry)
+    return texts
+
+
+def exports(text: str) -> list[str]:
+    """The names that a module exports."""
+    return re.findall(r"^export (?:async )?(?:function|class|const|let)\s+(\w+)", text, re.M)
+
+
+def _plain(name: str, text: str) -> str:
+    """A module without imports, exports, comments that fill a line, and indentation."""
+    body = EXPORT.sub("", IMPORT.sub("", text))
+    if re.search(r"^(import|export)\b", body, re.M):
+        raise BundleError(f"{name}: an import or export of a form that the bundle does not know")
+    lines = (line.strip() for line in body.splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//"))
+
+
+@cache
+def _bundled(entry: str, more: tuple[tuple[str, str], ...]) -> tuple[str, tuple[str, ...]]:
+    texts = _in_order(entry, dict(more))
+    owner: dict[str, str] = {}
+    for name, text in texts.items():
+        for top in TOP.findall(text):
+            if owner.setdefault(top, name) != name:
+                raise BundleError(f"{name}: {top} is a name of {owner[top]} as well; all modules share one scope")
+    return "\n".join(_plain(name, text) for name, text in texts.items()), tuple(exports(texts[entry]))
+
+
+def bundle(entry: str, returned: str = "", **more: str) -> str:
+    """One script of an entry module and all that it imports.
+
+    returned: the name of a global that holds what the entry exports; "" for none. more: texts of generated modules by
+    their name without ending, as they are imported: ``rules=...`` is ``./rules.js`` of `js/`.
+    """
+    body, names = _bundled(entry, tuple(sorted((f"{name}.js", text) for name, text in more.items())))
+    head, tail = ('"use strict";\n(() => {\n', "\n})();\n")
+    if returned:
+        head = f'"use strict";\nconst {returned} = (() => {{\n'
+        tail = f"\nreturn {{ {', '.join(names)} }};\n}})();\n"
+    return head + body + tail
