@@ -3,15 +3,17 @@
 Each module is one file of `js/`. An import names what it takes, ``import { a, b } from "./file.js";``, an export stands
 before a function, class or constant. All modules share one scope, so a name at the top of a module is given once in the
 whole script; that, and everything else which would make the bundle differ from the modules, is an error here.
-Comments that fill a line and the indentation are left out; nothing else is changed.
+The result is made small by `loopbook.tuner.small`.
 """
 
 import re
-from functools import cache
+from collections.abc import Mapping
 from pathlib import Path
 from posixpath import dirname, normpath
+from types import MappingProxyType
 
 from derivations.errors import LoopbookError
+from loopbook.tuner.small import small
 
 FOLDER = Path(__file__).parent / "js"
 IMPORT = re.compile(r'import \{([^}]*)\} from "([^"]+)";\n')
@@ -67,34 +69,32 @@ def exports(text: str) -> list[str]:
 
 
 def _plain(name: str, text: str) -> str:
-    """A module without imports, exports, comments that fill a line, and indentation."""
+    """A module without imports and exports."""
     body = EXPORT.sub("", IMPORT.sub("", text))
     if re.search(r"^(import|export)\b", body, re.M):
         raise BundleError(f"{name}: an import or export of a form that the bundle does not know")
-    lines = (line.strip() for line in body.splitlines())
-    return "\n".join(line for line in lines if line and not line.startswith("//"))
+    return body
 
 
-@cache
-def _bundled(entry: str, more: tuple[tuple[str, str], ...]) -> tuple[str, tuple[str, ...]]:
-    texts = _in_order(entry, dict(more))
+def _bundled(entry: str, more: dict[str, str]) -> tuple[str, list[str]]:
+    texts = _in_order(entry, more)
     owner: dict[str, str] = {}
     for name, text in texts.items():
         for top in TOP.findall(text):
             if owner.setdefault(top, name) != name:
                 raise BundleError(f"{name}: {top} is a name of {owner[top]} as well; all modules share one scope")
-    return "\n".join(_plain(name, text) for name, text in texts.items()), tuple(exports(texts[entry]))
+    return "\n".join(_plain(name, text) for name, text in texts.items()), exports(texts[entry])
 
 
-def bundle(entry: str, returned: str = "", **more: str) -> str:
+def bundle(entry: str, more: Mapping[str, str] = MappingProxyType({}), returned: str = "") -> str:
     """One script of an entry module and all that it imports.
 
-    returned: the name of a global that holds what the entry exports; "" for none. more: texts of generated modules by
-    their name without ending, as they are imported: ``rules=...`` is ``./rules.js`` of `js/`.
+    more: texts of generated modules by their path in `js/`. returned: the name of a global that holds what the entry
+    exports; "" for none.
     """
-    body, names = _bundled(entry, tuple(sorted((f"{name}.js", text) for name, text in more.items())))
+    body, names = _bundled(entry, dict(more))
     head, tail = ('"use strict";\n(() => {\n', "\n})();\n")
     if returned:
         head = f'"use strict";\nconst {returned} = (() => {{\n'
         tail = f"\nreturn {{ {', '.join(names)} }};\n}})();\n"
-    return head + body + tail
+    return small(head + body + tail, keep=returned)

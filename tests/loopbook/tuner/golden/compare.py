@@ -54,7 +54,7 @@ const verdict = (process, pid) => golden.core.isStable(golden.core.loopTransfer(
 def engine() -> MiniRacer:
     """V8 with the page's core."""
     machine = MiniRacer()
-    machine.eval(bundle("core/index.js", "golden") + SCRIPT, timeout=PATIENCE)
+    machine.eval(bundle("core/index.js", returned="golden") + SCRIPT, timeout=PATIENCE)
     return machine
 
 

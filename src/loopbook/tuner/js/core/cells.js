@@ -1,12 +1,11 @@
 // One cell of a linear differential equation with a delayed input, as a matrix: Radau collocation.
 //
-//     x'(t) = A x(t) + b v(t) + e_s        x(0) = x0_s        one e and x0 for each source s
-//     w(t)  = C_w x + d_w v + f_w,s        what is fed back: v(t) = w(t - L), 0 for t < L
-//     y(t)  = C_y x + d_y v + f_y,s
+//     x'(t)  = A x(t) + b v(t) + e_s       x(0) = x0_s        one e and x0 for each source s
+//     o_i(t) = C_i x + d_i v + f_i,s       outputs; the first is fed back: v(t) = o_0(t - L), 0 for t < L
 //
 // A is block triangular; `blocks` are the sizes of its diagonal blocks, so that the states are solved one after another.
 
-import { expm, solveInPlace } from "./linear.js";
+import { solveInPlace } from "./linear.js";
 import { COUNT, DEGREE, radau } from "./legendre.js";
 
 const REACH = 4;
@@ -27,33 +26,31 @@ export function gradedMesh(modes, length) {
     return edges;
 }
 
-// What a cell of this length does: {map, constants, rows}. map: (x at the start, v at the start and the points) -> w at
-// the start and the points, y there, x at the end; constants: what each source adds.
+// What a cell of this length does: {map, constants, rows, width}. map: (x at the start, v at the start and the points)
+// -> each output at the start and the points, x at the end; constants: what each source adds.
 export function cellOperator(system, length) {
-    const { n } = system, width = n + COUNT, sources = system.e.length;
-    const X = system.delay ? byCollocation(system, length) : byExponential(system, length);
-    const columns = width + sources, rows = 2 * COUNT + n;
+    const { n, outputs } = system, width = n + COUNT, sources = system.e.length;
+    const X = statesAtPoints(system, length), columns = width + sources, rows = outputs.length * COUNT + n;
     const map = new Float64Array(rows * width), constants = system.e.map(() => new Float64Array(rows));
-    for (let out = 0; out < 2; out += 1) {
-        const [C, d, f] = out ? [system.Cy, system.dy, system.fy] : [system.Cw, system.dw, system.fw];
+    outputs.forEach(({ C, d, f }, o) => {
         for (let q = 0; q < COUNT; q += 1) {
-            const row = out * COUNT + q;
-            if (q === 0) {
-                for (let i = 0; i < n; i += 1) map[row * width + i] = C[i];
-            } else {
-                for (let i = 0; i < n; i += 1) {
-                    if (C[i] === 0) continue;
-                    const from = (i * DEGREE + q - 1) * columns;
-                    for (let j = 0; j < width; j += 1) map[row * width + j] += C[i] * X[from + j];
-                    for (let s = 0; s < sources; s += 1) constants[s][row] += C[i] * X[from + width + s];
+            const row = o * COUNT + q;
+            for (let i = 0; i < n; i += 1) {
+                if (C[i] === 0) continue;
+                if (q === 0) {
+                    map[row * width + i] = C[i];
+                    continue;
                 }
+                const from = (i * DEGREE + q - 1) * columns;
+                for (let j = 0; j < width; j += 1) map[row * width + j] += C[i] * X[from + j];
+                for (let s = 0; s < sources; s += 1) constants[s][row] += C[i] * X[from + width + s];
             }
             map[row * width + n + q] += d;
             for (let s = 0; s < sources; s += 1) constants[s][row] += f[s];
         }
-    }
+    });
     for (let i = 0; i < n; i += 1) {
-        const from = (i * DEGREE + DEGREE - 1) * columns, row = 2 * COUNT + i;
+        const from = (i * DEGREE + DEGREE - 1) * columns, row = outputs.length * COUNT + i;
         for (let j = 0; j < width; j += 1) map[row * width + j] = X[from + j];
         for (let s = 0; s < sources; s += 1) constants[s][row] = X[from + width + s];
     }
@@ -61,7 +58,7 @@ export function cellOperator(system, length) {
 }
 
 // x at the points, (n DEGREE) rows, as a map of x at the start, v at the start and the points, and each source.
-function byCollocation(system, length) {
+function statesAtPoints(system, length) {
     const { n, A, b, e, blocks } = system, p = DEGREE, columns = n + COUNT + e.length, { a } = radau;
     const X = new Float64Array(n * p * columns);
     let first = 0;
@@ -95,25 +92,5 @@ function byCollocation(system, length) {
         X.set(solveInPlace(M, size * p, right, columns), first * p * columns);
         first += size;
     }
-    return X;
-}
-
-// The same without dead time, where nothing is fed back: x is the exponential of the matrix.
-function byExponential(system, length) {
-    const { n, A, e } = system, columns = n + COUNT + e.length, X = new Float64Array(n * DEGREE * columns);
-    const all = n + e.length;
-    radau.nodes.forEach((x, q) => {
-        const M = new Float64Array(all * all), until = length * (x + 1) / 2;
-        for (let i = 0; i < n; i += 1) {
-            for (let j = 0; j < n; j += 1) M[i * all + j] = A[i * n + j] * until;
-            e.forEach((row, s) => { M[i * all + n + s] = row[i] * until; });
-        }
-        const E = expm(M, all);
-        for (let i = 0; i < n; i += 1) {
-            const row = (i * DEGREE + q) * columns;
-            for (let j = 0; j < n; j += 1) X[row + j] = E[i * all + j];
-            for (let s = 0; s < e.length; s += 1) X[row + n + COUNT + s] = E[i * all + n + s];
-        }
-    });
     return X;
 }

@@ -66,7 +66,7 @@ export class Signal {
             let lively = 0;
             for (let k = 1; k < row.length; k += 1) lively += Math.abs(row[k]);
             if (lively <= STILL * largest) return;
-            for (const x of zerosOf(slopeOf(row))) found.push({ t: t + (x + 1) / 2 * length, value: series(row, x) });
+            for (const x of zerosOfSeries(slopeOf(row))) found.push({ t: t + (x + 1) / 2 * length, value: series(row, x) });
         });
         this.found = found;
         return found;
@@ -80,7 +80,7 @@ export class Signal {
             const c = row.slice(), t = this.edges[i], length = this.edges[i + 1] - t;
             c[0] -= level;
             if (before * series(c, -1) < 0) found.push(t);
-            for (const x of zerosOf(c)) found.push(t + (x + 1) / 2 * length);
+            for (const x of zerosOfSeries(c)) found.push(t + (x + 1) / 2 * length);
             before = series(c, 1);
         });
         return found;
@@ -89,7 +89,7 @@ export class Signal {
     integralOfMagnitude() {
         let total = 0;
         this.rows.forEach((row, i) => {
-            const half = (this.edges[i + 1] - this.edges[i]) / 2, cuts = [-1, ...zerosOf(row), 1];
+            const half = (this.edges[i + 1] - this.edges[i]) / 2, cuts = [-1, ...zerosOfSeries(row), 1];
             for (let k = 1; k < cuts.length; k += 1) total += half * Math.abs(integral(row, cuts[k - 1], cuts[k]));
         });
         return total;
@@ -99,7 +99,7 @@ export class Signal {
     variation() {
         let total = 0, before = 0;
         this.rows.forEach((row) => {
-            const turns = [-1, ...zerosOf(slopeOf(row)), 1].map((x) => series(row, x));
+            const turns = [-1, ...zerosOfSeries(slopeOf(row)), 1].map((x) => series(row, x));
             total += Math.abs(turns[0] - before);
             for (let k = 1; k < turns.length; k += 1) total += Math.abs(turns[k] - turns[k - 1]);
             before = turns.at(-1);
@@ -141,7 +141,7 @@ function gridOf(count) {
 
 // The zeros of a series in (-1, 1], bracketed on points three times as dense as its degree, then found by Newton's
 // method kept inside the bracket.
-function zerosOf(c) {
+function zerosOfSeries(c) {
     let rest = 0;
     for (let k = 1; k < c.length; k += 1) rest += Math.abs(c[k]);
     if (Math.abs(c[0]) > rest) return [];

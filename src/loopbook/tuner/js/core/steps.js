@@ -18,7 +18,7 @@ const NOTHING = 1e-17;
 
 // After how many dead times the corners have worn off; Infinity where they never do.
 function smoothFrom(system) {
-    const again = Math.abs(system.dw);
+    const again = Math.abs(system.outputs[0].d);
     if (again >= 1) return Infinity;
     return WORN_OFF + (again ? Math.ceil(Math.log(NOTHING) / Math.log(again)) : 0);
 }
@@ -33,14 +33,14 @@ function apply(operator, s, input, out) {
     }
 }
 
-// The outputs after each source on [0, horizon]: [{w, y}], signals. modes: of A, which tell the cells.
+// The outputs after each source on [0, horizon]: a row of signals for each source. modes: of A, which tell the cells.
 export function solve(system, horizon, modes) {
     if (!(horizon > 0 && Number.isFinite(horizon))) throw new ResponseError("a positive horizon is expected");
     const segments = system.delay ? Math.max(1, Math.ceil(horizon / system.delay * (1 - 1e-12))) : 1;
     const short = segments > MANY ? Math.min(segments, smoothFrom(system)) : segments;
     const begun = shortCells(system, system.delay || horizon, short, modes);
     if (short < segments) continueLong(system, begun, horizon - short * system.delay);
-    return begun.runs.map(({ w, y }) => ({ w: new Signal(begun.edges, w).until(horizon), y: new Signal(begun.edges, y).until(horizon) }));
+    return begun.runs.map(({ rows }) => rows.map((cells) => new Signal(begun.edges, cells).until(horizon)));
 }
 
 // Each dead time in the same cells, halved until the last coefficients are rounding.
@@ -70,37 +70,43 @@ function march(system, mesh, segments, length) {
         if (!kept.has(key)) kept.set(key, cellOperator(system, key));
         operators.push(kept.get(key));
     }
-    const rows = 2 * COUNT + n, input = new Float64Array(n + COUNT), out = new Float64Array(rows);
+    const many = system.outputs.length, input = new Float64Array(n + COUNT), out = new Float64Array(many * COUNT + n);
     const edges = new Float64Array(segments * cells + 1), tails = new Array(cells).fill(0);
     for (let k = 0; k < segments; k += 1) for (let i = 0; i < cells; i += 1) edges[k * cells + i] = k * length + mesh[i];
     edges[segments * cells] = segments * length;
     const runs = system.e.map((_, s) => {
-        const fed = [], w = [], y = [];
+        const fed = [], rows = system.outputs.map(() => []), largest = new Array(many).fill(0);
+        const ends = operators.map(() => new Array(many).fill(0));
         let x = Float64Array.from(system.x0[s]);
-        const largest = [0, 0], last = operators.map(() => [0, 0]);
         for (let k = 0; k < segments; k += 1) {
             for (let i = 0; i < cells; i += 1) {
                 input.set(x);
                 if (k) input.set(fed[(k - 1) * cells + i], n); else input.fill(0, n);
                 apply(operators[i], s, input, out);
-                fed.push(out.slice(0, COUNT));
-                x = out.slice(2 * COUNT);
-                [w, y].forEach((rowsOf, o) => {
-                    const c = coefficientsOf(out, o * COUNT);
-                    rowsOf.push(c);
-                    for (let q = 0; q < COUNT; q += 1) largest[o] = Math.max(largest[o], Math.abs(out[o * COUNT + q]));
-                    const end = Math.max(Math.abs(c[DEGREE]), Math.abs(c[DEGREE - 1]));
-                    if (!(end <= last[i][o])) last[i][o] = Number.isFinite(end) ? end : Infinity;
-                });
+                if (segments > 1) fed.push(out.slice(0, COUNT));
+                x = out.slice(many * COUNT);
+                for (let o = 0; o < many; o += 1) {
+                    const c = coefficientsOf(out, o * COUNT), end = lastOf(c);
+                    rows[o].push(c);
+                    largest[o] = Math.max(largest[o], largestIn(out, o));
+                    if (!(end <= ends[i][o])) ends[i][o] = end;
+                }
             }
         }
-        last.forEach((pair, i) => pair.forEach((end, o) => {
-            const share = end / (largest[o] || 1);
-            tails[i] = Number.isNaN(share) ? Infinity : Math.max(tails[i], share);
-        }));
-        return { w, y, x, largest };
+        ends.forEach((row, i) => row.forEach((end, o) => { tails[i] = Math.max(tails[i], share(end, largest[o])); }));
+        return { rows, x, largest };
     });
     return { edges, runs, tails };
+}
+
+const lastOf = (c) => Math.max(Math.abs(c[DEGREE]), Math.abs(c[DEGREE - 1]));
+
+const share = (part, whole) => (Number.isFinite(part) && Number.isFinite(whole) ? part / (whole || 1) : Infinity);
+
+function largestIn(out, o) {
+    let found = 0;
+    for (let q = o * COUNT; q < (o + 1) * COUNT; q += 1) found = Math.max(found, Math.abs(out[q]));
+    return found;
 }
 
 // More cells after those of `begun`, over `span`, as long as they resolve the response.
@@ -117,12 +123,11 @@ function continueLong(system, begun, span) {
         const accepted = longest(cell, system, begun.runs, lengths, length);
         length = accepted.length;
         begun.runs.forEach((run, s) => {
-            run.w.push(coefficientsOf(accepted.out[s], 0));
-            run.y.push(coefficientsOf(accepted.out[s], COUNT));
-            run.x = accepted.out[s].slice(2 * COUNT);
-            for (let o = 0; o < 2; o += 1) for (let q = 0; q < COUNT; q += 1) {
-                run.largest[o] = Math.max(run.largest[o], Math.abs(accepted.out[s][o * COUNT + q]));
-            }
+            run.rows.forEach((cells, o) => {
+                cells.push(coefficientsOf(accepted.out[s], o * COUNT));
+                run.largest[o] = Math.max(run.largest[o], largestIn(accepted.out[s], o));
+            });
+            run.x = accepted.out[s].slice(run.rows.length * COUNT);
         });
         lengths.push(length);
         done += length;
@@ -143,14 +148,12 @@ function longest(cell, system, runs, lengths, start) {
         const out = runs.map((run, s) => {
             const input = new Float64Array(operator.width);
             input.set(run.x);
-            input.set(fedBack(run.w, lengths, operator.past), system.n);
+            input.set(fedBack(run.rows[0], lengths, operator.past), system.n);
             const found = new Float64Array(operator.rows);
             apply(operator, s, input, found);
-            for (let o = 0; o < 2; o += 1) {
-                const c = coefficientsOf(found, o * COUNT);
-                const end = Math.max(Math.abs(c[DEGREE]), Math.abs(c[DEGREE - 1])) / (run.largest[o] || 1);
-                tail = Number.isNaN(end) ? Infinity : Math.max(tail, end);
-            }
+            run.largest.forEach((size, o) => {
+                tail = Math.max(tail, share(lastOf(coefficientsOf(found, o * COUNT)), size));
+            });
             return found;
         });
         if (tail <= RESOLVED) return { out, length };

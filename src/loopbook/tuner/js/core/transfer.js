@@ -231,14 +231,14 @@ export class LoopTransfer {
     }
 
     // A last Newton step with the polynomials themselves, which are more exact than their roots.
-    polished(start) {
+    polished(start, angle = Math.PI) {
         let w = start;
         for (let i = 0; i < 2; i += 1) {
             const s = [0, w], [n, dn] = withSlope(this.num, s), [d, dd] = withSlope(this.den, s);
             if (!abs(n) || !abs(d)) return w;
-            const ratio = mul(div(n, d), exp([0, -this.delay * w]));
+            const ratio = mul(div(n, d), exp([0, -this.delay * w - angle]));
             const slope = div(dn, n)[0] - div(dd, d)[0] - this.delay;
-            const change = slope ? arg([-ratio[0], -ratio[1]]) / slope : 0;
+            const change = slope ? arg(ratio) / slope : 0;
             if (!(Math.abs(change) < 1e-6 * w)) return w;
             w -= change;
         }

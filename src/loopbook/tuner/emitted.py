@@ -1,0 +1,47 @@
+"""The controller's program in the page: its law in JavaScript, and its C and Structured Text with places for numbers.
+
+All of it is emitted by `loopbook.code`. A text with places is the program of settings that stand for nothing, each
+number of which is a mark: the page writes its own in the language's way.
+"""
+
+import json
+import re
+from functools import cache
+
+from loopbook.code.emission import emit
+from loopbook.code.pid import pid_block
+from loopbook.tuner.packed import packed
+
+MARKS = {
+    **{"K": 101.015625, "Ti": 102.015625, "Td": 103.015625, "Tf": 104.015625, "b": 0.615625, "c": 0.415625},
+    **{"Tt": 105.015625, "h": 106.015625, "u_low": -107.015625, "u_high": 108.015625, "rate": 109.015625},
+}
+FORMS = {"(lb_real)": "c", "REAL#": "s", "": "p"}
+
+
+@cache
+def law_script() -> str:
+    """The module `generated/law.js`: the function ``pid(settings)`` of an emitted controller."""
+    text = emit(pid_block(K=1.0, Ti=1.0, h=1.0), "js")["pid.mjs"]
+    return text[text.index("export function pid") :]
+
+
+def with_places(text: str) -> str:
+    """A program in which the numbers of `MARKS` are places, such as ``\\x02cK\\x03``."""
+    for name, value in MARKS.items():
+        found = re.compile(rf"-?(\(lb_real\)|REAL#|){re.escape(repr(abs(value)))}")
+        text = found.sub(lambda match, name=name: f"\x02{FORMS[match[1]]}{name}\x03", text)  # type: ignore[misc]
+    return text
+
+
+@cache
+def programs() -> dict[str, str]:
+    """C and Structured Text by file name, with places."""
+    block = pid_block(**MARKS)
+    return {name: with_places(text) for target in ("c", "st") for name, text in emit(block, target).items()}
+
+
+@cache
+def programs_script() -> str:
+    """The module `generated/programs.js`: those texts, packed."""
+    return f"export const packedPrograms = {json.dumps(packed(json.dumps(programs())))};\n"
