@@ -73,6 +73,8 @@ def _plain(name: str, text: str) -> str:
     body = EXPORT.sub("", IMPORT.sub("", text))
     if re.search(r"^(import|export)\b", body, re.M):
         raise BundleError(f"{name}: an import or export of a form that the bundle does not know")
+    if re.search(r"^(const|let)\s*[\[{]", body, re.M):
+        raise BundleError(f"{name}: a pattern at the top of a module; give each name a declaration")
     return body
 
 
@@ -97,4 +99,4 @@ def bundle(entry: str, more: Mapping[str, str] = MappingProxyType({}), returned:
     if returned:
         head = f'"use strict";\nconst {returned} = (() => {{\n'
         tail = f"\nreturn {{ {', '.join(names)} }};\n}})();\n"
-    return small(head + body + tail, keep=returned)
+    return head + small(body, frozenset(names)) + tail

@@ -4,13 +4,11 @@ All of it is emitted by `loopbook.code`. A text with places is the program of se
 number of which is a mark: the page writes its own in the language's way.
 """
 
-import json
 import re
 from functools import cache
 
 from loopbook.code.emission import emit
 from loopbook.code.pid import pid_block
-from loopbook.tuner.packed import packed
 
 MARKS = {
     **{"K": 101.015625, "Ti": 102.015625, "Td": 103.015625, "Tf": 104.015625, "b": 0.615625, "c": 0.415625},
@@ -21,9 +19,9 @@ FORMS = {"(lb_real)": "c", "REAL#": "s", "": "p"}
 
 @cache
 def law_script() -> str:
-    """The module `generated/law.js`: the function ``pid(settings)`` of an emitted controller."""
-    text = emit(pid_block(K=1.0, Ti=1.0, h=1.0), "js")["pid.mjs"]
-    return text[text.index("export function pid") :]
+    """The module `generated/law.js`: the function ``emittedLaw(settings)`` of an emitted controller."""
+    text = emit(pid_block(K=1.0, Ti=1.0, h=1.0, name="emitted_law"), "js")["emitted_law.mjs"]
+    return text[text.index("export function emittedLaw") :]
 
 
 def with_places(text: str) -> str:
@@ -39,9 +37,3 @@ def programs() -> dict[str, str]:
     """C and Structured Text by file name, with places."""
     block = pid_block(**MARKS)
     return {name: with_places(text) for target in ("c", "st") for name, text in emit(block, target).items()}
-
-
-@cache
-def programs_script() -> str:
-    """The module `generated/programs.js`: those texts, packed."""
-    return f"export const packedPrograms = {json.dumps(packed(json.dumps(programs())))};\n"

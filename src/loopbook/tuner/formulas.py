@@ -19,7 +19,6 @@ from derivations.tuning.catalogue import catalogue
 from derivations.tuning.letters import QUANTITIES
 from derivations.tuning.rule import NONE, OFF, Caution, Rule
 from derivations.tuning.takes import Takes
-from loopbook.tuner.packed import packed
 
 TAKES = {
     Takes.STEP: "step",
@@ -60,16 +59,16 @@ def _function(arguments: Sequence[sympy.Symbol], expression: Any) -> str:
     return f"({names}) => {_Plain().doprint(expression)}"
 
 
-def _caution(caution: Caution, texts: list[str]) -> str:
+def _caution(caution: Caution, sentences: list[str]) -> str:
     shows = ", ".join(f"{json.dumps(name)}: {_of_quantities(e)}" for name, e in caution.shows.items())
     when = {sympy.true: "() => true", sympy.false: "() => false"}.get(caution.when) or _of_quantities(caution.when)
-    if caution.text not in texts:
-        texts.append(caution.text)
-    return f"[{when}, texts[{texts.index(caution.text)}], {{ {shows} }}]"
+    if caution.text not in sentences:
+        sentences.append(caution.text)
+    return f"[{when}, sentences[{sentences.index(caution.text)}], {{ {shows} }}]"
 
 
-def _cautions(cautions: Sequence[Caution], texts: list[str]) -> str:
-    return f"[{', '.join(_caution(caution, texts) for caution in cautions)}]"
+def _cautions(cautions: Sequence[Caution], sentences: list[str]) -> str:
+    return f"[{', '.join(_caution(caution, sentences) for caution in cautions)}]"
 
 
 def _words(rule: Rule) -> dict[str, Any]:
@@ -88,20 +87,22 @@ def _words(rule: Rule) -> dict[str, Any]:
     return words
 
 
-def _formulas(rule: Rule, texts: list[str]) -> str:
-    """What computes a rule; texts: of its cautions."""
+def _formulas(rule: Rule, sentences: list[str]) -> str:
+    """What computes a rule; sentences: of its cautions."""
     formulas: Mapping[str, Any] = {"K": rule.K, "Ti": rule.Ti, "Td": rule.Td}
     parts = [f"{name}: {_of_quantities(e)}" for name, e in formulas.items() if e not in (NONE, OFF)]
     if rule.measure is not None:
         above = sympy.Gt(rule.measure, rule.b_above)
         parts.append(f"b: (q) => {_Printer().doprint(sympy.Piecewise((1, above), (0, True)))}")
-    else:
-        parts.append(f"b: () => {rule.b}")
+    elif not rule.b:
+        parts.append("b: () => 0")
     defaults = ", ".join(f"{QUANTITIES[letter]}: {_of_quantities(e)}" for letter, e in rule.defaults.items())
-    parts += [f"defaults: {{ {defaults} }}", f"refusals: {_cautions(rule.refusals + rule.extrapolates, texts)}"]
-    parts.append(f"cautions: {_cautions(rule.cautions, texts)}")
+    parts += [f"defaults: {{ {defaults} }}"] * bool(defaults)
+    for name, cautions in (("refusals", rule.refusals + rule.extrapolates), ("cautions", rule.cautions)):
+        parts += [f"{name}: {_cautions(cautions, sentences)}"] * bool(cautions)
     needs = sorted({QUANTITIES[letter] for letter in rule.inputs if letter in QUANTITIES} & {"L", "L1"})
-    parts.append(f"dead: {json.dumps([] if 'closed' in _names(rule) else needs)}")
+    if needs and "closed" not in _names(rule):
+        parts.append(f"dead: {json.dumps(needs)}")
     return f"{{ {', '.join(parts)} }}"
 
 
@@ -150,16 +151,26 @@ def _angles() -> str:
 
 
 @cache
+def _rules() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The formulas of all rules, and the sentences of their cautions."""
+    sentences: list[str] = []
+    rules = tuple(_formulas(rule, sentences) for rule in catalogue().values())
+    return rules, tuple(sentences)
+
+
+def rules_words() -> dict[str, Any]:
+    """What is said of the rules, for `texts`."""
+    return {"rules": [_words(rule) for rule in catalogue().values()], "sentences": _rules()[1]}
+
+
+@cache
 def rules_script() -> str:
     """The text of the module `rules/formulas.js`."""
-    texts: list[str] = []
-    rules = ",\n    ".join(_formulas(rule, texts) for rule in catalogue().values())
-    said = {"rules": [_words(rule) for rule in catalogue().values()], "texts": texts}
     return (
-        'import { unpacked } from "../core/unpacked.js";\n'
-        f"const said = JSON.parse(unpacked({json.dumps(packed(json.dumps(said, ensure_ascii=False)))}));\n"
-        f"const texts = said.texts;\n"
-        f"export const published = [\n    {rules},\n].map((rule, i) => ({{ ...said.rules[i], ...rule }}));\n"
+        'import { texts } from "../core/texts.js";\n'
+        "const sentences = texts.sentences;\n"
+        "const EMPTY = { defaults: {}, refusals: [], cautions: [], dead: [], b: () => 1 };\n"
+        f"export const published = [{', '.join(_rules()[0])}].map((rule, i) => ({{ ...EMPTY, ...texts.rules[i], ...rule }}));\n"
         f"export const twoLagEquations = {{\n{_two_lags()}}};\n"
         f"export const migoBranch = {{\n{_branch()}}};\n"
         f"export const byAngles = {{\n{_angles()}}};\n"

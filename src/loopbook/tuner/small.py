@@ -1,7 +1,8 @@
-"""A script made small: white space and comments left out, names of variables shortened.
+"""A script made small: white space and comments left out, variables shortened, declarations put together.
 
-A variable gets one shorter name wherever it stands, which nothing else has: so no scopes have to be told apart. A
-property keeps its name (after a dot, as a key, as a method), and where a variable stands for one in short form, as in
+A name at the top of the script gets one shorter name for the whole of it. A name inside one of its functions or classes
+gets a shorter one there, the same wherever it stands in that function or class, so that no scopes have to be told apart.
+A property keeps its name (after a dot, as a key, as a method), and where a variable stands for one in short form, as in
 ``{ a, b }``, the property is written out. What the script does not declare is the browser's. The tests run the small
 script.
 """
@@ -28,6 +29,8 @@ TOKEN = re.compile(
 LITERAL = re.compile(r"/(?:[^/\\\n\[]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*")
 BEFORE_LITERAL = frozenset("( , = : [ ! & | ? { } ; => && || return".split())
 GLOBALS = frozenset("Array Error Float64Array JSON Map Math Number Object Set String".split())
+TOPS = frozenset("const let function class ;".split())
+RESERVED = 23
 LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
@@ -165,33 +168,103 @@ def _short_names(taken: set[str]) -> Iterator[str]:
                 yield name
 
 
-def small(text: str, keep: str = "") -> str:
-    """The same script, small. keep: a name that others use.
+def _pieces(found: list[tuple[str, str]], closes: dict[int, int]) -> list[int]:
+    """For each token the number of the statement at the top of the script in which it stands."""
+    piece, at, numbers = 0, 0, []
+    while at < len(found):
+        end = closes.get(at, at) if found[at][0] == "mark" else at
+        numbers += [piece] * (end + 1 - at)
+        following = found[end + 1][1] if end + 1 < len(found) else ";"
+        if found[end][1] == ";" or (found[end][1] == "}" and following in TOPS):
+            piece += 1
+        at = end + 1
+    return numbers
+
+
+def _at_top(found: list[tuple[str, str]], closes: dict[int, int]) -> set[str]:
+    """The names declared at the top of the script."""
+    names: set[str] = set()
+    at = 0
+    while at < len(found):
+        if found[at][1] in ("const", "let", "function", "class"):
+            names.add(found[at + 1][1])
+        at = (closes[at] if found[at][0] == "mark" and at in closes else at) + 1
+    return names
+
+
+def _renamed(found: list[tuple[str, str]], keep: frozenset[str]) -> list[str]:
+    """The tokens with their new names."""
+    closes = _closing(found)
+    roles, pieces, top = _roles(found, closes), _pieces(found, closes), _at_top(found, closes)
+    declared = _declared(found, closes) - WORDS - keep
+    variables = [i for i, role in roles.items() if role != PROPERTY and found[i][1] in declared]
+    taken = {found[i][1] for i, role in roles.items() if role != PROPERTY and found[i][1] not in declared}
+    uses = Counter(found[i][1] for i in variables)
+    everywhere = sorted((n for n in top if n in uses), key=lambda n: (-uses[n], n))
+    singles = set(LETTERS[:RESERVED])  # for what is inside; the top has the rest
+    names_of_top = dict(zip(everywhere, _short_names(taken | singles), strict=False))
+    inside: dict[int, Counter[str]] = {}
+    for i in variables:
+        if found[i][1] not in top:
+            inside.setdefault(pieces[i], Counter())[found[i][1]] += 1
+    names = {}
+    for piece, counted in inside.items():
+        ordered = sorted(counted, key=lambda n: (-counted[n], n))
+        names[piece] = dict(zip(ordered, _short_names(taken | set(names_of_top.values())), strict=False))
+    words = [text for _, text in found]
+    for i in variables:
+        name = found[i][1]
+        short = names_of_top[name] if name in top else names[pieces[i]][name]
+        words[i] = f"{name}:{short}" if roles[i] == SHORT else short
+    return words
+
+
+def _together(words: list[str], kinds: list[str]) -> list[str]:
+    """``const`` as ``let``; declarations that follow each other as one; ``(a) => `` as ``a => ``."""
+    words = ["let" if kind == "name" and word == "const" else word for word, kind in zip(words, kinds, strict=True)]
+    result: list[str] = []
+    open_brackets: list[str] = []
+    declares: list[bool] = [False]  # at each depth: is the statement a declaration
+    for i, (word, kind) in enumerate(zip(words, kinds, strict=True)):
+        before = words[i - 1] if i else ";"
+        if kind == "name" and word == "let":
+            if before == ";" and declares[-1] and result[-1] == ";" and (not open_brackets or open_brackets[-1] == "{"):
+                result[-1] = ","
+                continue
+            declares[-1] = not open_brackets or open_brackets[-1] == "{"
+        elif before in (";", "{", "}") and not (kind == "mark" and word in ",.;)?:"):
+            declares[-1] = False
+        if kind == "mark" and word in "([{":
+            open_brackets.append(word)
+            declares.append(False)
+        elif kind == "mark" and word in ")]}":
+            open_brackets.pop()
+            declares.pop()
+        lone = word == "=>" and result[-1] == ")" and result[-3:-2] == ["("] and kinds[i - 2] == "name"
+        if lone and (len(result) < 4 or result[-4] not in ("function", "async")):
+            result[-3:] = [result[-2]]
+        result.append(word)
+    return result
+
+
+def small(text: str, keep: frozenset[str] = frozenset()) -> str:
+    """The same script, small. keep: names that others use.
 
     >>> small("const found = { depth: 1 };  // remark\\nlet other = found.depth + found.depth;")
-    'const b={depth:1};let a=b.depth+b.depth;'
-    >>> small("const depth = 2, found = { depth }, far = depth * depth;")
-    'const a=2,c={depth:a},b=a*a;'
+    'let x={depth:1},y=x.depth+x.depth;'
+    >>> small("function far(depth) { const found = { depth }; return found; }")
+    'function x(b){let a={depth:b};return a}'
     """
     found = list(tokens(text))
-    closes = _closing(found)
-    roles = _roles(found, closes)
-    declared = _declared(found, closes) - WORDS - {keep}
-    uses = Counter(found[i][1] for i, role in roles.items() if role != PROPERTY and found[i][1] in declared)
-    shorts = Counter(found[i][1] for i, role in roles.items() if role == SHORT)
-    saved = {name: number * (len(name) - 1) - shorts[name] * (len(name) + 1) for name, number in uses.items()}
-    worth = sorted((name for name in saved if saved[name] > 0), key=lambda name: (-uses[name], name))
-    taken = {found[i][1] for i in roles} - set(worth)
-    names = dict(zip(worth, _short_names(taken), strict=False))
+    words = _together(_renamed(found, keep), [kind for kind, _ in found])
     parts: list[str] = []
     before = ""
-    for i, (kind, token) in enumerate(found):
-        word = token
-        if kind == "name" and token in names and roles.get(i) != PROPERTY:
-            word = f"{token}:{names[token]}" if roles[i] == SHORT else names[token]
+    for word in words:
         glued = before[-1:].isalnum() or before[-1:] in ("_", "$")
         if (glued and (word[0].isalnum() or word[0] in "_$")) or (before[-1:] in ("+", "-") and word[0] == before[-1]):
             parts.append(" ")
+        if word == "}" and before == ";":
+            parts.pop()
         parts.append(word)
         before = word
-    return "".join(parts).replace(";}", "}")
+    return "".join(parts)

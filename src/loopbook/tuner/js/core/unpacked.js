@@ -1,23 +1,52 @@
 // Text from its short form, see loopbook.tuner.packed.
 
-const SIGN = "^";
-const DIGITS = Array.from({ length: 92 }, (_, i) => String.fromCharCode(35 + i)).filter((c) => !"\\`^".includes(c)).slice(0, 88);
-const LEAST_LENGTH = 6;
+const LETTERS = Array.from({ length: 92 }, (_, i) => String.fromCharCode(35 + i)).filter((c) => c !== "\\").join("");
+const SHORTEST = 4;
+const MOST_SYMBOLS = 320;
+const SLOTS = 20;
+
+// A canonical code from the lengths of its words: the symbol of "1" + word.
+function codeOf(lengths) {
+    const symbols = lengths.map((length, symbol) => [length, symbol]).filter(([length]) => length).sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+    const found = new Map();
+    let code = 0, before = 0;
+    for (const [length, symbol] of symbols) {
+        code *= 2 ** (length - before);
+        found.set(2 ** length + code, symbol);
+        before = length;
+        code += 1;
+    }
+    return found;
+}
 
 export function unpacked(short) {
-    const digit = (i) => DIGITS.indexOf(short[i]), base = DIGITS.length;
-    let text = "";
-    for (let i = 0; i < short.length; i += 1) {
-        if (short[i] !== SIGN) {
-            text += short[i];
-        } else if (short[i + 1] === SIGN) {
-            text += SIGN;
-            i += 1;
-        } else {
-            const back = (digit(i + 1) * base + digit(i + 2)) * base + digit(i + 3), start = text.length - back;
-            for (let k = 0; k < digit(i + 4) + LEAST_LENGTH; k += 1) text += text[start + k];
-            i += 4;
+    const digits = Array.from(short, (c) => LETTERS.indexOf(c)), begin = 3 + MOST_SYMBOLS + SLOTS;
+    const size = (digits[0] * 91 + digits[1]) * 91 + digits[2], bytes = [];
+    const words = codeOf(digits.slice(3, 3 + MOST_SYMBOLS)), distances = codeOf(digits.slice(3 + MOST_SYMBOLS, begin));
+    let at = begin, held = 0, count = 0;
+    const bit = () => {
+        if (!count) {
+            held = digits[at] * 91 + digits[at + 1];
+            at += 2;
+            count = 13;
         }
+        count -= 1;
+        return (held >> count) & 1;
+    };
+    const symbol = (code) => {
+        let word = 1;
+        do word = 2 * word + bit(); while (!code.has(word));
+        return code.get(word);
+    };
+    while (bytes.length < size) {
+        const found = symbol(words);
+        if (found < 256) {
+            bytes.push(found);
+            continue;
+        }
+        let back = 1;
+        for (let n = symbol(distances); n > 1; n -= 1) back = 2 * back + bit();
+        for (let n = found - 256 + SHORTEST; n > 0; n -= 1) bytes.push(bytes[bytes.length - back]);
     }
-    return text;
+    return decodeURIComponent(bytes.map((b) => `%${b.toString(16).padStart(2, "0")}`).join(""));
 }
