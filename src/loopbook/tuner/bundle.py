@@ -21,6 +21,19 @@ TOP = re.compile(r"^(?:export )?(?:async )?(?:function|class|const|let)\s+(\w+)"
 EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let)\b)", re.M)
 
 
+OWN = frozenset(
+    """atGain atPhase axes band bandSoon before blocks branch branchEnd chips clearance clipped colour colours constants
+    crossings curvature deepest depth distance drawRecord drawn edges extremes firstViolation formKnobs formShown
+    gainAtInfinity gainCrossovers integralOfMagnitude kdLimit keyRow kindShown knobs lastFrequency lastStable later
+    logMagnitude logSlope monotonePhase outputs overshoot ownUnits phaseAtStart phaseCrossovers pins plotCard plots
+    possible rangeAround readAddress refresh replayed result rowsTold ruleCard rulesFor scales secondTouch settling
+    showKnobs showRules stairs startPhase toCoefficients typedIn unstableRoots usual variation writeAddress xTicks
+    yTicks""".split()
+)
+"""Properties of the page's own objects that get shorter names in the bundle: long ones, and those used often. None is used
+of an object of the browser's, nor named in a text."""
+
+
 class BundleError(LoopbookError):
     """The modules do not make one script; the message names the module."""
 
@@ -99,4 +112,4 @@ def bundle(entry: str, more: Mapping[str, str] = MappingProxyType({}), returned:
     if returned:
         head = f'"use strict";\nconst {returned} = (() => {{\n'
         tail = f"\nreturn {{ {', '.join(names)} }};\n}})();\n"
-    return head + small(body, frozenset(names)) + tail
+    return head + small(body, frozenset(names), OWN) + tail

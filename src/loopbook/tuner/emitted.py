@@ -5,6 +5,7 @@ number of which is a mark: the page writes its own in the language's way.
 """
 
 import re
+from dataclasses import replace
 from functools import cache
 
 from loopbook.code.emission import emit
@@ -14,13 +15,16 @@ MARKS = {
     **{"K": 101.015625, "Ti": 102.015625, "Td": 103.015625, "Tf": 104.015625, "b": 0.615625, "c": 0.415625},
     **{"Tt": 105.015625, "h": 106.015625, "u_low": -107.015625, "u_high": 108.015625, "rate": 109.015625},
 }
+NOT_IN_A_PAGE = ("manual", "change", "cycle")
 FORMS = {"(lb_real)": "c", "REAL#": "s", "": "p"}
 
 
 @cache
 def law_script() -> str:
     """The module `generated/law.js`: the function ``emittedLaw(settings)`` of an emitted controller."""
-    text = emit(pid_block(K=1.0, Ti=1.0, h=1.0, name="emitted_law"), "js")["emitted_law.mjs"]
+    block = pid_block(K=1.0, Ti=1.0, h=1.0, name="emitted_law")
+    used = tuple(o for o in block.program.operations if o.name not in NOT_IN_A_PAGE)
+    text = emit(replace(block, program=replace(block.program, operations=used)), "js")["emitted_law.mjs"]
     return text[text.index("export function emittedLaw") :]
 
 

@@ -23,7 +23,8 @@ def _style() -> str:
 @cache
 def generated() -> dict[str, str]:
     """The modules that are no files, by their path."""
-    texts = {"programs": programs(), "style": _style(), **rules_words()}
+    words = json.loads((FOLDER / "ui" / "words.json").read_text(encoding="utf-8"))
+    texts = {"programs": programs(), "style": _style(), **rules_words(), **words}
     short = packed(json.dumps(texts, ensure_ascii=False))
     return {
         "rules/formulas.js": rules_script(),

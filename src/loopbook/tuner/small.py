@@ -29,6 +29,7 @@ TOKEN = re.compile(
 LITERAL = re.compile(r"/(?:[^/\\\n\[]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*")
 BEFORE_LITERAL = frozenset("( , = : [ ! & | ? { } ; => && || return".split())
 GLOBALS = frozenset("Array Error Float64Array JSON Map Math Number Object Set String".split())
+STATIC = frozenset(("Math", "Number", "Object"))  # what they have needs no `this`
 TOPS = frozenset("const let function class ;".split())
 RESERVED = 23
 LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -192,8 +193,8 @@ def _at_top(found: list[tuple[str, str]], closes: dict[int, int]) -> set[str]:
     return names
 
 
-def _renamed(found: list[tuple[str, str]], keep: frozenset[str]) -> list[str]:
-    """The tokens with their new names."""
+def _renamed(found: list[tuple[str, str]], keep: frozenset[str], properties: frozenset[str]) -> list[str]:
+    """The tokens with their new names. properties: those that get one, too."""
     closes = _closing(found)
     roles, pieces, top = _roles(found, closes), _pieces(found, closes), _at_top(found, closes)
     declared = _declared(found, closes) - WORDS - keep
@@ -212,10 +213,14 @@ def _renamed(found: list[tuple[str, str]], keep: frozenset[str]) -> list[str]:
         ordered = sorted(counted, key=lambda n: (-counted[n], n))
         names[piece] = dict(zip(ordered, _short_names(taken | set(names_of_top.values())), strict=False))
     words = [text for _, text in found]
+    others = dict(zip(sorted(properties), _short_names({text for kind, text in found if kind == "name"}), strict=False))
+    for i, role in roles.items():
+        if role == PROPERTY:
+            words[i] = others.get(words[i], words[i])
     for i in variables:
         name = found[i][1]
         short = names_of_top[name] if name in top else names[pieces[i]][name]
-        words[i] = f"{name}:{short}" if roles[i] == SHORT else short
+        words[i] = f"{others.get(name, name)}:{short}" if roles[i] == SHORT else short
     return words
 
 
@@ -247,8 +252,25 @@ def _together(words: list[str], kinds: list[str]) -> list[str]:
     return result
 
 
-def small(text: str, keep: frozenset[str] = frozenset()) -> str:
-    """The same script, small. keep: names that others use.
+def _members(words: list[str]) -> list[str]:
+    """``Math.abs`` and its like by one letter or two, declared at the beginning."""
+    at = [i for i in range(len(words) - 2) if words[i] in STATIC and words[i + 1] == "."]
+    uses = Counter(f"{words[i]}.{words[i + 2]}" for i in at)
+    letters = _short_names(set(words))
+    names = {member: next(letters) for member, n in uses.most_common() if n > 4}
+    if not names:
+        return words
+    for i in at:
+        member = f"{words[i]}.{words[i + 2]}"
+        if member in names:
+            words[i : i + 3] = [names[member], "", ""]
+    declared = ",".join(f"{name}={member}" for member, name in names.items())
+    return [f"let {declared}", ";", *(word for word in words if word)]
+
+
+def small(text: str, keep: frozenset[str] = frozenset(), properties: frozenset[str] = frozenset()) -> str:
+    """The same script, small. keep: names that others use. properties: the script's own, which may be renamed: none may
+    be one of the browser's, nor stand in a text.
 
     >>> small("const found = { depth: 1 };  // remark\\nlet other = found.depth + found.depth;")
     'let x={depth:1},y=x.depth+x.depth;'
@@ -256,7 +278,7 @@ def small(text: str, keep: frozenset[str] = frozenset()) -> str:
     'function x(b){let a={depth:b};return a}'
     """
     found = list(tokens(text))
-    words = _together(_renamed(found, keep), [kind for kind, _ in found])
+    words = _members(_together(_renamed(found, keep, properties), [kind for kind, _ in found]))
     parts: list[str] = []
     before = ""
     for word in words:

@@ -57,7 +57,7 @@ export class Axes {
         return this;
     }
 
-    grid({ xTicks, yTicks, xLabels = true, label = "", format = (v) => shown(v, 4) }) {
+    grid({ xTicks, yTicks, xLabels = true, label = "", low = false, format = (v) => shown(v, 4) }) {
         const { context: c, box, colours } = this;
         c.lineWidth = 1;
         c.font = FONT;
@@ -85,9 +85,9 @@ export class Axes {
         }
         if (label) {
             c.textAlign = "left";
-            c.textBaseline = "top";
+            c.textBaseline = low ? "bottom" : "top";
             c.fillStyle = colours.ink;
-            c.fillText(label, box.x + 6, box.y + 4);
+            c.fillText(label, box.x + 6, low ? box.y + box.h - 4 : box.y + 4);
         }
         c.strokeStyle = colours.frame;
         c.strokeRect(box.x + 0.5, box.y + 0.5, box.w, box.h);

@@ -167,9 +167,7 @@ function runProgram(s, found, h, placed = null) {
 function sampledLoop(s, found) {
     const h = s.h || found.time / 20, sampled = sample(found.process, h), { B, A, modes } = pulseTransfer(sampled);
     const placed = s.kind === "rst" ? placement(s, h, B, A, found) : null;
-    const { R, S } = placed ?? pidPolynomials(programOf(s, h).state);
-    const trimmedB = B.map((c) => (Math.abs(c) < 1e-14 * Math.max(...B.map(Math.abs)) ? 0 : c));
-    const circle = new CircleTransfer(convolve(S, trimmedB), convolve(R, A), [...zerosOf(S), ...zerosOf(trimmedB)], [...zerosOf(R), ...modes]);
+    const { R, S } = placed ?? pidPolynomials(programOf(s, h).state), circle = circleOf(R, S, B, A, modes);
     const count = circle.unstableRoots;
     Object.assign(found, {
         placed, circle, h, stable: count === 0, count: count < 0 ? null : count,
@@ -183,6 +181,12 @@ function sampledLoop(s, found) {
     if (found.stable) found.margins.delay = delayMargin(s, found);
     runProgram(s, found, h, placed);
     found.numbers = found.stable ? { peak: Math.max(...found.run.u.map(Math.abs)), rise: null, ...measured(s, found.run) } : null;
+}
+
+// The loop transfer S B/(R A) on the unit circle; modes: the roots of A.
+function circleOf(R, S, B, A, modes) {
+    const most = Math.max(...B.map(Math.abs)), clean = B.map((c) => (Math.abs(c) < 1e-14 * most ? 0 : c));
+    return new CircleTransfer(convolve(S, clean), convolve(R, A), [...zerosOf(S), ...zerosOf(clean)], [...zerosOf(R), ...modes]);
 }
 
 // The closed loop's slow poles in s, log(z)/h; of short polynomials alone.
@@ -217,12 +221,12 @@ function placement(s, h, B, A, found) {
 // The smallest dead time that, added to the process, makes the sampled loop unstable: by halving, from what the phase
 // says.
 function delayMargin(s, found) {
+    const { R, S } = found.placed ?? pidPolynomials(programOf(s, found.h).state);
     const guesses = found.margins.gainCrossovers.map(({ w, phase }) => ((phase + 360) % 360) * Math.PI / 180 / w);
     if (!guesses.length) return Infinity;
     const holds = (more) => {
         const { process } = found, { B, A, modes } = pulseTransfer(sample({ ...process, delay: process.delay + more }, found.h));
-        const { R, S } = found.placed ?? pidPolynomials(programOf(s, found.h).state);
-        return new CircleTransfer(convolve(S, B), convolve(R, A), [...zerosOf(S), ...zerosOf(B)], [...zerosOf(R), ...modes]).unstableRoots === 0;
+        return circleOf(R, S, B, A, modes).unstableRoots === 0;
     };
     let low = 0, high = Math.min(...guesses) * 1.3;
     if (holds(high)) return high / 1.3;

@@ -1,53 +1,18 @@
-// A knob: a label, a slider that is logarithmic where the quantity is, and the number itself, to be typed.
+// A knob: a label, a slider that is logarithmic where the quantity is, and the number itself, to be typed. words.json says
+// of each quantity its label, unit, what it is, whether 0 or infinity stand at an end of the slider (zero, infinite),
+// whether it may be negative (signed), has a number alone (plain) that may be empty, and the range of a linear one.
 
+import { texts } from "../core/texts.js";
 import { h } from "./elements.js";
 import { shown, typed } from "./state.js";
 
 const STEPS = 400;
 
-// The quantities: label, unit, what they are, whether 0 or infinity stand at an end of the slider, and the linear ones
-// with their range.
-export const QUANTITIES = {
-    K: { label: "K", about: "gain of the process", signed: true },
-    T1: { label: "T₁", unit: "s", about: "first time constant; negative: unstable", zero: true, signed: true },
-    T2: { label: "T₂", unit: "s", about: "second time constant", zero: true },
-    T3: { label: "T₃", unit: "s", about: "third time constant", zero: true },
-    Tz: { label: "Tz", unit: "s", about: "zero, 1 + Tz s; negative: inverse response", zero: true, signed: true },
-    L: { label: "L", unit: "s", about: "dead time", zero: true },
-    Kc: { label: "K", about: "gain of the regulator", signed: true },
-    Ti: { label: "Ti", unit: "s", about: "integral time; ∞: no integral action", infinite: true },
-    Td: { label: "Td", unit: "s", about: "derivative time; 0: no derivative action", zero: true },
-    N: { label: "N", about: "the derivative's filter has the time constant Td/N; ∞: none", infinite: true, low: 1, high: 100 },
-    P: { label: "P", about: "proportional gain", signed: true },
-    I: { label: "I", unit: "1/s", about: "integral gain; 0: none", zero: true, signed: true },
-    D: { label: "D", unit: "s", about: "derivative gain; 0: none", zero: true, signed: true },
-    Np: { label: "N", unit: "rad/s", about: "pole of the derivative's filter" },
-    Ks: { label: "K′", about: "gain of the series form", signed: true },
-    Tis: { label: "Ti′", unit: "s", about: "integral time of the series form; ∞: none", infinite: true },
-    Tds: { label: "Td′", unit: "s", about: "derivative time of the series form; 0: none", zero: true },
-    b: { label: "b", about: "set-point weight of the proportional part", linear: [0, 1] },
-    c: { label: "c", about: "set-point weight of the derivative part", linear: [0, 1] },
-    h: { label: "h", unit: "s", about: "sampling interval; 0: continuous", zero: true },
-    speed: { label: "ω", unit: "rad/s", about: "speed of the dominant pair of poles" },
-    damping: { label: "ζ", about: "damping of the dominant pair of poles", linear: [0.1, 1.2] },
-    rest: { label: "a", unit: "rad/s", about: "the other poles lie at −a" },
-    observer: { label: "aₒ", unit: "rad/s", about: "the observer's pole lies at −aₒ; 0: none", zero: true },
-    closed: { label: "τc", unit: "s", about: "closed-loop time constant wanted, for SIMC and lambda; 0: the rule's own", zero: true },
-    margin: { label: "φm", unit: "°", about: "phase margin wanted, for the rule of that name", linear: [20, 80] },
-    uK: { label: "K ±", unit: "%", about: "uncertainty of the gain", linear: [0, 60] },
-    uT: { label: "T ±", unit: "%", about: "uncertainty of the time constants", linear: [0, 60] },
-    uL: { label: "L ±", unit: "%", about: "uncertainty of the dead time: what if it is so much longer", linear: [0, 100] },
-    r: { label: "r", about: "size of the set-point's step", signed: true, plain: true },
-    d: { label: "d", about: "size of the load's step at the process input", signed: true, plain: true },
-    low: { label: "u min", about: "lower limit of the input, as a deviation; empty: none", plain: true, empty: true },
-    high: { label: "u max", about: "upper limit of the input, as a deviation; empty: none", plain: true, empty: true },
-};
-
 export class Knob {
     // change(name, value, done): done is false while the slider moves.
     constructor(name, around, change) {
         this.name = name;
-        this.about = QUANTITIES[name];
+        this.about = texts.quantities[name];
         this.change = change;
         const { label, unit, about, linear, plain } = this.about, id = `lbt-${name}-${(Knob.made = (Knob.made ?? 0) + 1)}`;
         const [low, high] = linear ?? this.rangeAround(around);

@@ -212,12 +212,12 @@ export class BodePlot {
         const grid = frequencies(result), x = [grid[0], grid.at(-1)], xTicks = decades(...x), y = [1e-2, 1e2];
         const all = [...pins, main].filter((p) => p.result.at);
         for (const p of all) frequencies(p.result);
-        axes.part(0, 0.52).scales(x, y, { logX: true, logY: true }).grid({ xTicks, yTicks: [0.01, 0.1, 1, 10, 100], xLabels: false, label: "|G(jω)|" });
+        axes.part(0, 0.52).scales(x, y, { logX: true, logY: true }).grid({ xTicks, yTicks: [0.01, 0.1, 1, 10, 100], xLabels: false, label: "|G(jω)|", low: true });
         axes.rule({ y: 1, colour: colours.quiet, dash: "dash" });
         for (const p of all) axes.line(p.result.grid, p.result.curve.map((v) => Math.hypot(...v)), p.style);
         for (const { w } of result.margins?.gainCrossovers ?? []) axes.mark(w, 1, "ring", colours.current, 4.5);
         for (const { w, gain } of result.margins?.phaseCrossovers ?? []) if (w > 0) axes.line([w, w], [1, 1 / gain], { colour: colours.bad, width: 2 });
-        axes.part(0.57, 1).scales(x, [-330, 30], { logX: true }).grid({ xTicks, yTicks: [0, -90, -180, -270], label: "phase, °; ω in rad/s" });
+        axes.part(0.57, 1).scales(x, [-330, 30], { logX: true }).grid({ xTicks, yTicks: [0, -90, -180, -270], label: "phase, °; ω in rad/s", low: true });
         axes.rule({ y: -180, colour: colours.quiet, dash: "dash" });
         for (const p of all) axes.line(p.result.grid, unwrapped(p.result.curve), p.style);
         for (const { w, phase } of result.margins?.gainCrossovers ?? []) {
@@ -249,7 +249,7 @@ export class SensitivityPlot {
         if (!result.at) return axes;
         const grid = frequencies(result), x = [grid[0], grid.at(-1)], all = [...pins, main].filter((p) => p.result.at);
         axes.part(0, 1).scales(x, [1e-2, 8], { logX: true, logY: true })
-            .grid({ xTicks: decades(...x), yTicks: [0.01, 0.1, 1, 2, 5], label: "|S| strong, |T| thin; ω in rad/s" });
+            .grid({ xTicks: decades(...x), yTicks: [0.01, 0.1, 1, 2, 5], label: "|S| strong, |T| thin; ω in rad/s", low: true });
         axes.rule({ y: 1, colour: colours.quiet, dash: "dash" });
         for (const p of all) {
             frequencies(p.result);

@@ -7,7 +7,7 @@ export const DEFAULTS = {
     form: "standard", Kc: 0.65, Ti: 45, Td: 0, N: 10, b: 1, c: 0,
     h: 0, low: null, high: null, windup: true,
     kind: "pid", speed: 0.1, damping: 0.7, rest: 0.1, observer: 0.3,
-    r: 1, d: 1, uK: 0, uT: 0, uL: 20, closed: 0, margin: 60,
+    r: 1, d: 0.5, uK: 0, uT: 0, uL: 20, closed: 0, margin: 60,
 };
 
 const WORDS = new Set(["form", "kind"]);

@@ -1,6 +1,7 @@
 // The page's one object: state, history, pins, what is drawn, what is said.
 
 import { replay, fitOf } from "../core/replay.js";
+import { texts } from "../core/texts.js";
 import { fits, rules, settingsBy } from "../rules/rules.js";
 import { evaluate, processTime, variants } from "./compute.js";
 import { download, h } from "./elements.js";
@@ -8,7 +9,7 @@ import { Knob } from "./knobs.js";
 import { BodePlot, NyquistPlot, PolesPlot, SensitivityPlot, TimePlot } from "./plots.js";
 import { chosenInterval, modelToml, programSettings, programTexts, regulatorJson } from "./pythonic.js";
 import { DEFAULTS, FORMS, fromText, inSeries, processOf, shown, toText } from "./state.js";
-import { numbersOf, summary } from "./words.js";
+import { numbersOf, say, summary } from "./words.js";
 
 const LIGHT = {
     ink: "#16202b", quiet: "#5a6673", grid: "#e8ecf1", frame: "#b8c2cc", bad: "#a4272b", band: "rgba(11,99,165,.14)", disc: "rgba(164,39,43,.07)",
@@ -114,30 +115,25 @@ export class Tuner {
         this.knobs = {};
         this.plots = {};
         const process = h("fieldset.lbt-card", {}, h("legend", {}, "Process"), this.formula = h("p.lbt-formula"));
-        if (this.given) {
-            process.append(...knobs(["K", "L"]));
-            this.knobs.K.about = { ...this.knobs.K.about, about: "factor on the gain of the process" };
-        } else {
-            process.append(...knobs(["K", "T1", "T2", "T3", "Tz", "L"]));
-            process.append(h("div.lbt-row", {}, this.integrating = this.check("integrates", "integrating")));
+        const { given, usual } = this, boxes = h("div.lbt-row"), folded = (title, names, open) => h("details", { open }, h("summary", {}, title), ...knobs(names));
+        process.append(...knobs(given ? ["K", "L"] : ["K", "T1", "T2", "L"]));
+        if (!given) {
+            boxes.append(this.integrating = this.check("integrates", "integrating"));
+            process.append(folded("a third lag, a zero", ["T3", "Tz"], Boolean(usual.T3 || usual.Tz)));
         }
-        if (this.data.record) {
-            process.append(h("div.lbt-row", {}, this.recordBox = this.toggle("the record behind", false, (on) => { this.view.record = on; this.later(); })));
-        }
-        this.uncertain = h("details", {}, h("summary", {}, "What if it is another"), ...knobs(this.given ? ["uK", "uL"] : ["uK", "uT", "uL"]));
-        this.uncertain.open = true;
-        process.append(this.uncertain);
+        if (this.data.record) boxes.append(this.toggle("the record behind", false, (on) => { this.view.record = on; this.later(); }));
+        process.append(...knobs(["uL"]), folded("if gain and lags are others", given ? ["uK"] : ["uK", "uT"], Boolean(usual.uK || usual.uT)), boxes);
 
         this.formKnobs = h("div");
         this.form = h("select", { "aria-label": "form of the PID regulator", onchange: () => this.change({ form: this.form.value }) },
             ...Object.keys(FORMS).map((form) => h("option", { value: form }, form)));
         this.kind = this.tabs([["pid", "PID"], ["rst", "poles"]], "kind of the regulator", (kind) => this.change({ kind }));
-        this.pid = h("div", {}, this.formKnobs, ...knobs(["b", "c"]));
+        this.pid = h("div", {}, h("div.lbt-row", {}, "form", this.form), this.formKnobs, ...knobs(["b", "c"]));
         this.rst = h("div", {}, ...knobs(["speed", "damping", "rest", "observer"]));
         const limits = h("div.lbt-two", {}, ...knobs(["low", "high", "r", "d"]));
         this.windup = this.check("anti-windup", "windup");
-        const regulator = h("fieldset.lbt-card", {}, h("legend", {}, "Regulator", this.kind, this.form), this.pid, this.rst, ...knobs(["h"]), limits, h("div.lbt-row", {}, this.windup));
-        const side = h("div.lbt-side", {}, process, regulator, this.ruleCard(knobs));
+        const regulator = h("fieldset.lbt-card", {}, h("legend", {}, "Regulator", this.kind), this.pid, this.rst, ...knobs(["h"]), limits, h("div.lbt-row", {}, this.windup));
+        const side = h("div.lbt-side", {}, process, regulator);
 
         const grid = h("div.lbt-grid", {}, side, this.plotCard("time", "Responses", { time: TimePlot }, true),
             this.plotCard("right", "", { nyquist: NyquistPlot, poles: PolesPlot }), this.plotCard("low", "", { bode: BodePlot, sensitivity: SensitivityPlot }));
@@ -145,19 +141,15 @@ export class Tuner {
         this.words = h("p.lbt-words", { role: "status", "aria-live": "polite" });
         this.note = h("p.lbt-note", { role: "status" });
         this.keyRow = h("div.lbt-key", { "aria-label": "pinned settings" });
-        const buttons = this.buttons = {
-            pin: h("button", { type: "button", title: "keep this setting to compare with; three at most", onclick: () => this.pin() }, "pin"),
-            undo: h("button", { type: "button", title: "Ctrl+Z", onclick: () => this.travel(this.past, this.future) }, "undo"),
-            redo: h("button", { type: "button", title: "Ctrl+Y", onclick: () => this.travel(this.future, this.past) }, "redo"),
-            reset: h("button", { type: "button", title: "as the page began", onclick: () => this.change({ ...this.usual }) }, "reset"),
-            link: h("button", { type: "button", title: "the address of this page holds everything; copy it", onclick: () => this.link() }, "link"),
-            toml: h("button", { type: "button", title: "the process, as loopbook design reads it", onclick: () => this.save("toml") }, "TOML"),
-            json: h("button", { type: "button", title: "the regulator, as loopbook code and loopbook tune read it", onclick: () => this.save("json") }, "JSON"),
-            c: h("button", { type: "button", title: "the program in C99", onclick: () => this.save("c") }, "C"),
-            st: h("button", { type: "button", title: "the program in Structured Text", onclick: () => this.save("st") }, "ST"),
+        const doing = {
+            pin: () => this.pin(), undo: () => this.travel(this.past, this.future), redo: () => this.travel(this.future, this.past),
+            reset: () => this.change({ ...this.usual }), link: () => this.link(), TOML: () => this.save("toml"), JSON: () => this.save("json"),
+            C: () => this.save("c"), ST: () => this.save("st"),
         };
-        const foot = h("div.lbt-foot", {}, this.numbers, h("div.lbt-bar", {}, this.words, this.keyRow, h("div.lbt-row", { role: "group", "aria-label": "actions" }, ...Object.values(buttons))));
-        this.root = h("section.lbt", { "aria-label": "interactive tuner", onkeydown: (event) => this.shortcut(event) }, grid, foot, this.note);
+        this.buttons = Object.fromEntries(Object.entries(texts.actions).map(([name, title]) => [name, h("button", { type: "button", title, onclick: doing[name] }, name)]));
+        const actions = h("div.lbt-row", { role: "group", "aria-label": "actions" }, ...Object.values(this.buttons));
+        const foot = h("div.lbt-foot", {}, this.numbers, this.words);
+        this.root = h("section.lbt", { "aria-label": "interactive tuner", onkeydown: (event) => this.shortcut(event) }, grid, this.ruleCard(), foot, h("div.lbt-bar", {}, this.keyRow, actions), this.note);
         this.place.replaceChildren(this.root);
     }
 
@@ -220,19 +212,20 @@ export class Tuner {
         return h(times ? "div.lbt-card.lbt-plot.lbt-times" : "div.lbt-card.lbt-plot", {}, head, canvas);
     }
 
-    ruleCard(knobs) {
+    ruleCard() {
         this.chips = ["P", "PI", "PID"].map((action) => {
             const chips = rules.filter((rule) => rule.action === action).map((rule) => {
                 const label = rule.title.replace(/, (P|PI|PID)$/, "").replace("Ziegler-Nichols", "ZN").replace("Chien-Hrones-Reswick", "CHR");
-                const equations = (rule.equations ?? []).join("; "), tip = `${rule.aim}. ${equations}${equations ? ". " : ""}${rule.source}`;
-                const chip = h("button", { type: "button", title: tip, "data-rule": rule.name, onclick: () => this.useRule(rule) }, label);
+                const title = [rule.aim, ...(rule.equations ?? []), rule.source].join("\n");
+                const chip = h("button", { type: "button", title, "data-rule": rule.name, onclick: () => this.useRule(rule) }, label);
                 chip.rule = rule;
                 return chip;
             });
             return h("div.lbt-chips", { role: "group", "aria-label": `rules for ${action}` }, h("span", {}, action), ...chips);
         });
-        this.more = this.toggle("variants, and those for other processes", false, () => this.showRules());
-        return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), ...this.chips, ...knobs(["closed", "margin"]), h("div.lbt-row", {}, this.more));
+        this.more = this.toggle(say("more"), false, () => this.showRules());
+        const wishes = h("div.lbt-wishes", {}, this.knob("closed").element, this.knob("margin").element, this.more);
+        return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), ...this.chips, wishes);
     }
 
     showRules() {
@@ -270,14 +263,14 @@ export class Tuner {
         globalThis.history.replaceState(null, "", `#${this.written}`);
         const { href } = globalThis.location;
         const copied = globalThis.navigator.clipboard?.writeText(href);
-        (copied ?? Promise.reject()).then(() => this.say("The address is copied: it holds this page as it stands."), () => this.say("The address of this page now holds everything: copy it from the browser."));
+        (copied ?? Promise.reject()).then(() => this.say(say("copied")), () => this.say(say("address")));
     }
 
     save(kind) {
         const { state, given } = this, interval = this.result.h || chosenInterval(state, this.scale, state.L), name = this.data.name || "pid";
         if (kind === "toml") {
             const text = modelToml(state, given);
-            if (text === null) this.say("loopbook design reads models of a gain, positive lags, a dead time and an integrator; this process is another.");
+            if (text === null) this.say(say("model"));
             else download("process.toml", text);
             return;
         }
@@ -286,12 +279,12 @@ export class Tuner {
             return;
         }
         if (this.result.placed) {
-            this.say("An RST regulator is written out from its JSON: loopbook code regulator.json --target c,st.");
+            this.say(say("rst"));
             return;
         }
         const texts = programTexts(programSettings(state, interval));
         for (const [file, text] of Object.entries(texts)) if (kind === "st" ? file.endsWith(".st") : !file.endsWith(".st")) download(file, text);
-        if (!state.h) this.say(`The program runs every ${shown(interval)} s; another h can be set on the left.`);
+        if (!state.h) this.say(say("interval", interval));
     }
 
     shortcut(event) {
@@ -399,7 +392,7 @@ export class Tuner {
     showKnobs() {
         const { state } = this, form = FORMS[state.form], values = form.read(state);
         if (values === null) {
-            this.say("These settings have complex zeros and no series form; they are shown in the standard form.");
+            this.say(say("series"));
             state.form = "standard";
             this.showKnobs();
             return;
@@ -415,7 +408,6 @@ export class Tuner {
         }
         if (this.knobs.N && form.knobs.includes("N")) this.knobs.N.show(values.N);
         this.form.value = state.form;
-        this.form.hidden = state.kind !== "pid";
         this.form.options[2].disabled = !inSeries(state);
         this.pid.hidden = state.kind !== "pid";
         this.rst.hidden = state.kind !== "rst";
@@ -425,7 +417,7 @@ export class Tuner {
         this.windup.hidden = state.low === null && state.high === null;
         if (state.kind === "rst" && this.kindShown !== "rst") this.view.right = "poles";
         this.kindShown = state.kind;
-        this.formula.textContent = this.data.formula ?? formulaOf(state);
+        this.formula.replaceChildren(this.data.formula ?? formulaOf(state));
         const { process } = this.result, integrates = process.den.at(-1) === 0;
         if (this.rulesFor !== integrates) {
             this.rulesFor = integrates;
@@ -447,7 +439,7 @@ export class Tuner {
             const kind = tabs ? this.view[name] : Object.keys(plots)[0];
             tabs?.show(kind);
             plots[kind].draw(this.drawn);
-            canvas.setAttribute("aria-label", `${kind} plot; the summary below says what it shows`);
+            canvas.setAttribute("aria-label", say("plot", kind));
         }
     }
 
@@ -464,7 +456,7 @@ export class Tuner {
         const { result, state } = this, words = summary(state, result, this.worst);
         this.words.classList.toggle("lbt-alarm", !result.stable);
         const back = !result.stable && this.lastStable
-            ? h("button", { type: "button", onclick: () => this.change({ ...this.lastStable }) }, "back to the last stable setting") : null;
+            ? h("button", { type: "button", onclick: () => this.change({ ...this.lastStable }) }, say("back")) : null;
         if (this.told !== words) {
             this.told = words;
             this.words.replaceChildren(h("span", {}, words), ...(back ? [back] : []));
@@ -506,8 +498,22 @@ function resampled({ t, y }, times) {
     });
 }
 
-function formulaOf(s) {
-    const lag = (T) => (T === 0 ? "" : `(${shown(T, 4)}s + 1)`), below = [s.integrating ? "s" : "", lag(s.T1), lag(s.T2), lag(s.T3)].join("");
-    return `G(s) = ${shown(s.K, 4)}${s.Tz ? lag(s.Tz) : ""}${s.L ? ` e^(−${shown(s.L, 4)}s)` : ""}${below ? ` / ${below}` : ""}`;
+const MATHML = "http://www.w3.org/1998/Math/MathML";
+
+function m(tag, ...children) {
+    const element = document.createElementNS(MATHML, tag);
+    element.append(...children);
+    return element;
 }
 
+const number = (x) => m("mn", shown(x, 4));
+
+// The transfer function as a formula.
+function formulaOf(s) {
+    const lag = (T) => (T === 0 ? [] : [m("mo", "("), m("mn", "1"), m("mo", T < 0 ? "−" : "+"), number(Math.abs(T)), m("mi", "s"), m("mo", ")")]);
+    const below = [...(s.integrating ? [m("mi", "s")] : []), ...lag(s.T1), ...lag(s.T2), ...lag(s.T3)];
+    const above = m("mrow", number(s.K), ...lag(s.Tz)), late = s.L ? [m("msup", m("mi", "e"), m("mrow", m("mo", "−"), number(s.L), m("mi", "s")))] : [];
+    const math = m("math", m("mi", "G"), m("mo", "="), below.length ? m("mfrac", above, m("mrow", ...below)) : above, ...late);
+    math.setAttribute("displaystyle", "true");
+    return math;
+}

@@ -1,48 +1,47 @@
 // What the page says in words, for those who hear it, and for those who want to know what the numbers mean.
 
+import { texts } from "../core/texts.js";
 import { shown } from "./state.js";
+
+// A sentence of words.json with its places filled.
+export function say(name, ...values) {
+    let i = 0;
+    return texts.says[name].replace(/\{\}/g, () => {
+        i += 1;
+        return typeof values[i - 1] === "number" ? shown(values[i - 1]) : values[i - 1];
+    });
+}
+
+const GRADES = [[1.3, "very robust"], [1.5, "robust"], [1.8, "moderately robust"], [2.1, "lively"], [Infinity, "fragile"]];
 
 // One or two sentences on a result; worst: Ms at the end of the dead time's uncertainty, null where it is unstable.
 export function summary(s, result, worst) {
-    if (result.error) return `This setting gives no loop: ${result.error}.`;
+    const { count } = result;
+    if (result.error) return say("none", result.error);
     if (!result.stable) {
-        const count = result.count;
-        const many = count === null ? "it stands on the border of stability" : count === Infinity
-            ? "its gain at high frequencies is too large for a dead time: infinitely many poles to the right"
-            : `${count} pole${count === 1 ? "" : "s"} in the right half plane`;
-        return `Unstable: ${result.h && count ? `${count} pole${count === 1 ? "" : "s"} outside the unit circle` : many}. The response grows, so there is no settling time and there are no margins.`;
+        const poles = `${count} pole${count === 1 ? "" : "s"}`;
+        if (count === null) return say("unstable", say("border"));
+        if (count === Infinity) return say("unstable", say("neutral"));
+        return say("unstable", say(result.circle ? "circle" : "plane", poles));
     }
-    const { Ms } = result.margins, grade = Ms.value < 1.3 ? "very robust" : Ms.value < 1.5 ? "robust" : Ms.value < 1.8 ? "moderately robust" : Ms.value < 2.1 ? "lively" : "fragile";
+    const { Ms, gain, gainLow } = result.margins, [, grade] = GRADES.find(([most]) => Ms.value < most);
     const parts = [`Stable and ${grade}: Ms ${shown(Ms.value)}.`];
-    if (s.uL > 0 && s.L > 0 && worst !== undefined) {
-        parts.push(worst === null
-            ? `With ${shown(s.uL)} % more dead time the loop is unstable.`
-            : `${shown(s.uL)} % more dead time makes Ms ${shown(worst)}.`);
-    }
-    if (result.margins.gainLow > 0) {
-        parts.push(`Conditionally stable: it holds for ${shown(result.margins.gainLow)} to ${shown(result.margins.gain)} times the gain.`);
-    }
-    if (result.limited && result.run?.stairs && !result.h) parts.push(`Limits: the program runs every ${shown(result.run.h)} s.`);
+    if (s.uL > 0 && s.L > 0 && worst !== undefined) parts.push(worst === null ? say("lost", s.uL) : say("longer", s.uL, worst));
+    if (gainLow > 0) parts.push(say("conditional", gainLow, gain));
+    if (result.limited && result.run?.stairs && !result.circle) parts.push(say("limits", result.run.h));
     return parts.join(" ");
 }
+
+const withUnit = (value, unit, none = "–") => (value === null ? none : value === Infinity ? "∞" : `${shown(value)}${unit}`);
 
 // The numbers: [label, text, what it is].
 export function numbersOf(result) {
     const m = result.margins, n = result.numbers;
     if (!m || !n) return [];
-    const pole = result.poles?.[0], damping = pole ? -pole[0] / Math.hypot(...pole) : null;
-    const poles = pole ? `${shown(pole[0])}${pole[1] ? ` ± ${shown(pole[1])}j` : ""}` : "–";
-    return [
-        ["Ms", shown(m.Ms.value, 4), "largest sensitivity; the inverse of the smallest distance from −1"],
-        ["Mt", shown(m.Mt.value, 4), "largest complementary sensitivity"],
-        ["gain margin", `${shown(m.gainLow)} … ${shown(m.gain)}`, "the loop is stable for gains between these factors"],
-        ["phase margin", `${shown(m.phase)}°`, "smallest at all crossovers"],
-        ["delay margin", m.delay === Infinity ? "∞" : `${shown(m.delay)} s`, "the dead time that can be added"],
-        ["overshoot", n.overshoot === null ? "–" : `${shown(n.overshoot)} %`, "of the set-point's step"],
-        ["settling", n.settling === null ? "–" : `${shown(n.settling)} s`, "into 2 % of the set-point's step"],
-        ["IAE load", n.iae === null ? "∞" : shown(n.iae), "integral of the absolute error after a unit load step"],
-        ["noise gain", shown(result.noise), "of the regulator at high frequencies"],
-        ["variation of u", shown(n.variation), "all movements of the input after the set-point's step, added up"],
-        ["slowest pole", poles, damping === null ? "" : `rad/s; damping ${shown(damping)}`],
+    const pole = result.poles?.[0], poles = pole ? `${shown(pole[0])}${pole[1] ? ` ± ${shown(pole[1])}j` : ""}` : "–";
+    const values = [
+        shown(m.Ms.value, 4), shown(m.Mt.value, 4), `${shown(m.gainLow)} … ${shown(m.gain)}`, withUnit(m.phase, "°"), withUnit(m.delay, " s"),
+        withUnit(n.overshoot, " %"), withUnit(n.settling, " s"), withUnit(n.iae, "", "∞"), shown(result.noise), shown(n.variation), poles,
     ];
+    return texts.numbers.map(([label, about], i) => [label, values[i], about]);
 }
