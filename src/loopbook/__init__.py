@@ -49,6 +49,7 @@ TABLE = {
     "tune": "loopbook.tuning.by_name:tune",
     "Tuning": "loopbook.tuning.result:Tuning",
     "place": "loopbook.pole_placement.place:place",
+    "tuner": "loopbook.tuner_page.turned:tuner",
     # what is known of the process
     "StepData": "loopbook.experiments.data:StepData",
     "IntegratingStepData": "loopbook.experiments.data:IntegratingStepData",

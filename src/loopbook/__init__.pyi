@@ -39,6 +39,7 @@ from loopbook.process.transfer_function import Process as Process
 from loopbook.records.reading import read_record as read_csv
 from loopbook.records.record import Record as Record
 from loopbook.response.simulation import simulate as simulate
+from loopbook.tuner_page.turned import tuner as tuner
 from loopbook.tuning.by_name import tune as tune
 from loopbook.tuning.result import Tuning as Tuning
 
@@ -84,5 +85,6 @@ __all__ = [
     "tf",
     "to_control",
     "tune",
+    "tuner",
     "tuning",
 ]

@@ -7,19 +7,9 @@ import { rootBetween } from "../core/search.js";
 import { unstableRoots } from "../core/stability.js";
 import { roots } from "../core/polynomials.js";
 import { migoBranch } from "./formulas.js";
-import { frequencyAt, responseAt, RuleDoesNotApply } from "./knowledge.js";
+import { frequencyAt, phaseOf, responseAt, RuleDoesNotApply } from "./knowledge.js";
 
 const TOLERANCE = 1e-7;
-
-// Where the phase gets to -180 degrees, Infinity where it never does.
-function crossing180(process) {
-    try {
-        return frequencyAt(process, -Math.PI);
-    } catch (error) {
-        if (error instanceof RuleDoesNotApply) return Infinity;
-        throw error;
-    }
-}
 
 const space = (low, high, n) => Array.from({ length: n }, (_, i) => low * (high / low) ** (i / (n - 1)));
 
@@ -46,8 +36,9 @@ export class MigoSearch {
 
     // The largest kd where dead time turns a loop gain that does not fade.
     get kdLimit() {
-        const { num, den, delay } = this.process;
-        return !delay || den.length - num.length > 1 ? Infinity : (this.C - this.R) * Math.abs(den[0] / num[0]);
+        const { num, den, delay } = this.process, last = num[0] / den[0], degree = den.length - num.length;
+        if (degree > 1 || (!delay && last > 0)) return Infinity;
+        return degree ? (this.C - this.R) / Math.abs(last) : 0;
     }
 
     // Frequencies dense enough to see every approach to the circle, with the process's response there.
@@ -83,10 +74,10 @@ export class MigoSearch {
     // The touching frequency of the PI optimum: where kd rises through zero with positive gains, ki largest.
     pi() {
         const steps = space(this.scale * 1e-3, this.scale * 10 ** 0.7, 400), points = steps.map((w) => this.branch(w));
-        const end = crossing180(this.process);
+        const phase = phaseOf(this.process);
         let best = -1;
         for (let i = 1; i < steps.length; i += 1) {
-            const rises = points[i - 1].kd <= 0 && points[i].kd > 0 && points[i].ki > 0 && points[i].k > 0 && steps[i] < end;
+            const rises = points[i - 1].kd <= 0 && points[i].kd > 0 && points[i].ki > 0 && points[i].k > 0 && phase(steps[i]) > -Math.PI;
             if (rises && (best < 0 || points[i - 1].ki > points[best].ki)) best = i - 1;
         }
         if (best < 0) throw new RuleDoesNotApply("ki has no smooth maximum under this robustness");
@@ -176,6 +167,7 @@ export class MigoSearch {
 export function migo(process, action, M = 1.4) {
     const search = new MigoSearch(process, M), w = action === "PI" ? search.pi() : search.pid(), { k, ki, kd } = search.branch(w);
     const D = action === "PI" ? 0 : kd;
+    if (!(k > 0 && ki > 0 && D >= 0)) throw new RuleDoesNotApply("the smooth optimum has gains of different signs");
     if (unstableRoots(loopTransfer(process, { P: k, I: ki, D, Tf: 0 }))) throw new RuleDoesNotApply("the loop would be unstable");
     return { K: k, Ti: k / ki, Td: D / k, b: 0 };
 }

@@ -275,7 +275,7 @@ def small(text: str, keep: frozenset[str] = frozenset(), properties: frozenset[s
     >>> small("const found = { depth: 1 };  // remark\\nlet other = found.depth + found.depth;")
     'let x={depth:1},y=x.depth+x.depth;'
     >>> small("function far(depth) { const found = { depth }; return found; }")
-    'function x(b){let a={depth:b};return a}'
+    'function x(a){let b={depth:a};return b}'
     """
     found = list(tokens(text))
     words = _members(_together(_renamed(found, keep, properties), [kind for kind, _ in found]))

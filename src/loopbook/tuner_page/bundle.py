@@ -3,7 +3,7 @@
 Each module is one file of `js/`. An import names what it takes, ``import { a, b } from "./file.js";``, an export stands
 before a function, class or constant. All modules share one scope, so a name at the top of a module is given once in the
 whole script; that, and everything else which would make the bundle differ from the modules, is an error here.
-The result is made small by `loopbook.tuner.small`.
+The result is made small by `loopbook.tuner_page.small`.
 """
 
 import re
@@ -13,7 +13,7 @@ from posixpath import dirname, normpath
 from types import MappingProxyType
 
 from derivations.errors import LoopbookError
-from loopbook.tuner.small import small
+from loopbook.tuner_page.small import small
 
 FOLDER = Path(__file__).parent / "js"
 IMPORT = re.compile(r'import \{([^}]*)\} from "([^"]+)";\n')
@@ -105,11 +105,11 @@ def bundle(entry: str, more: Mapping[str, str] = MappingProxyType({}), returned:
     """One script of an entry module and all that it imports.
 
     more: texts of generated modules by their path in `js/`. returned: the name of a global that holds what the entry
-    exports; "" for none.
+    exports; "" for none. What others see keeps its names.
     """
     body, names = _bundled(entry, dict(more))
     head, tail = ('"use strict";\n(() => {\n', "\n})();\n")
     if returned:
         head = f'"use strict";\nconst {returned} = (() => {{\n'
         tail = f"\nreturn {{ {', '.join(names)} }};\n}})();\n"
-    return head + small(body, frozenset(names), OWN) + tail
+    return head + small(body, frozenset(names), frozenset() if returned else OWN) + tail

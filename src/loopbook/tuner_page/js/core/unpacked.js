@@ -1,4 +1,4 @@
-// Text from its short form, see loopbook.tuner.packed.
+// Text from its short form, see loopbook.tuner_page.packed.
 
 const LETTERS = Array.from({ length: 92 }, (_, i) => String.fromCharCode(35 + i)).filter((c) => c !== "\\").join("");
 const SHORTEST = 4;

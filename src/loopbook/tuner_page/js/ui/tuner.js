@@ -25,7 +25,7 @@ const PATIENCE = 9;
 const REMEMBERED = 200;
 
 export class Tuner {
-    // data: what a notebook or the command gives, see loopbook.tuner.settings; place: the element that the page fills.
+    // data: what a notebook or the command gives, see loopbook.tuner_page.settings; place: the element that the page fills.
     constructor(place, data, number) {
         this.data = data;
         this.place = place;

@@ -4,12 +4,12 @@ import json
 import re
 from functools import cache
 
-from loopbook.tuner.bundle import FOLDER, bundle
-from loopbook.tuner.emitted import law_script, programs
-from loopbook.tuner.formulas import rules_script, rules_words
-from loopbook.tuner.packed import packed
+from loopbook.tuner_page.bundle import FOLDER, bundle
+from loopbook.tuner_page.emitted import law_script, programs
+from loopbook.tuner_page.formulas import rules_script, rules_words
+from loopbook.tuner_page.packed import packed
 
-MIME = "application/vnd.loopbook.tuner+json"
+MIME = "application/vnd.loopbook.tuner_page+json"
 PLACE = '<div class="lbt-place"></div>'
 """What the script fills; the press puts it and the data side by side."""
 

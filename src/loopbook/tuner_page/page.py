@@ -7,7 +7,7 @@ from hashlib import sha256
 from html import escape
 from typing import Any
 
-from loopbook.tuner.script import MIME, PLACE, script
+from loopbook.tuner_page.script import MIME, PLACE, script
 
 POLICY = (
     "default-src 'none'; script-src 'sha256-{}'; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -49,7 +49,7 @@ noscript svg, noscript img {{ max-width: 100%; height: auto; background: #fff; }
 
 
 def page(data: Mapping[str, Any], title: str, about: str = "", still: str = "") -> str:
-    """A complete page. data: see `loopbook.tuner.settings`. still: markup of the figure that stands for it, an SVG."""
+    """A complete page. data: see `loopbook.tuner_page.settings`. still: markup of the figure that stands for it, an SVG."""
     text = script()
     digest = base64.b64encode(sha256(text.encode()).digest()).decode()
     return PAGE.format(

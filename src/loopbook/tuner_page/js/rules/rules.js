@@ -68,6 +68,7 @@ function byFormulas(rule, process, wish) {
         q.i = wish.closed / q.T;
     }
     for (const [name, formula] of Object.entries(rule.defaults)) q[name] ??= formula(q);
+    if (rule.defaults.closed && q.closed === 0) throw new RuleDoesNotApply("without dead time its own closed-loop time is zero: give one");
     for (const name of rule.asks ?? []) {
         if (!(q[name] > 0)) throw new RuleDoesNotApply("it needs a wanted time constant of the closed loop");
     }

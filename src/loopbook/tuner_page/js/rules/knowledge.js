@@ -5,6 +5,7 @@ import { abs, div, mul } from "../core/complex.js";
 import { derivative, roots, trimmed, value } from "../core/polynomials.js";
 import { rootBetween } from "../core/search.js";
 import { realised } from "../core/state.js";
+import { isStable } from "../core/stability.js";
 import { solve } from "../core/steps.js";
 import { LoopTransfer } from "../core/transfer.js";
 import { twoLagEquations } from "./formulas.js";
@@ -51,10 +52,9 @@ function tangent(process, Kp) {
     const system = { n, A, b: new Float64Array(n), e: [b], x0: [new Float64Array(n)], outputs, delay: 0, blocks };
     const [[y, rate]] = solve(system, horizon, poles);
     const steepest = rate.extremes().reduce((best, point) => (point.value > best.value ? point : best));
-    const L = process.delay + steepest.t - y.at([steepest.t])[0] / steepest.value;
-    const [reached] = y.crossings(REACHED * Kp);
-    const T63 = process.delay + reached;
-    return { Kp, T: Math.max(T63 - L, 0), L: Math.max(L, 0) };
+    const start = steepest.t - y.at([steepest.t])[0] / steepest.value, [reached] = y.crossings(REACHED * Kp);
+    const L = process.delay + (start > 1e-12 * reached ? start : 0);
+    return { Kp, T: Math.max(process.delay + reached - L, 0), L };
 }
 
 function integratingStep(process) {
@@ -89,27 +89,94 @@ function halfRule(process, order) {
     return { Kp: staticGain(process), T: kept[0], T2, L };
 }
 
-// The lowest frequency at which the phase of the process is `angle`.
-export function frequencyAt(process, angle) {
-    const transfer = new LoopTransfer(process.num, process.den, process.delay);
-    const corners = [...transfer.poles, ...transfer.zeros].map(abs).filter((x) => x > 0);
-    if (process.delay) corners.push(1 / process.delay);
-    const low = Math.log10(Math.min(...(corners.length ? corners : [1]))) - 4;
-    const high = Math.log10(Math.max(...(corners.length ? corners : [1]))) + 4;
-    const phase = (w) => transfer.phase(w) - transfer.phaseAtStart;
-    let before = 10 ** low;
-    if (!(phase(before) > angle)) throw new RuleDoesNotApply(`the phase does not pass ${Math.round(angle * 180 / Math.PI)} degrees`);
-    for (let i = 1; i < 400; i += 1) {
-        const w = 10 ** (low + (high - low) * i / 399);
-        if (phase(w) <= angle) return transfer.polished(rootBetween((x) => phase(x) - angle, before, w), angle + transfer.phaseAtStart);
-        before = w;
-    }
-    throw new RuleDoesNotApply(`the phase does not pass ${Math.round(angle * 180 / Math.PI)} degrees`);
+// The process with the sign that makes its gain positive, as {transfer, start}: its phase is that of the transfer plus
+// start; a real pole in the right half plane begins at -180 degrees.
+function uprightTransfer({ num, den, delay }) {
+    const transfer = new LoopTransfer(num, den, delay);
+    const begins = -Math.PI * transfer.poles.filter((p) => p[0] > 0 && p[1] === 0).length;
+    const odd = Math.round((transfer.phaseAtStart - begins) / Math.PI) % 2;
+    const found = odd ? new LoopTransfer(num.map((c) => -c), den, delay) : transfer;
+    return { transfer: found, start: begins - found.phaseAtStart };
 }
 
+// The phase of a process without jumps, as a function.
+export function phaseOf(process) {
+    const { transfer, start } = uprightTransfer(process);
+    return (w) => transfer.phase(w) + start;
+}
+
+// The lowest frequency at which the phase passes `angle`.
+export function frequencyAt(process, angle) {
+    const { transfer, start } = uprightTransfer(process), found = firstPassing(transfer, () => [angle - start]);
+    if (found === null) throw new RuleDoesNotApply(`the phase does not pass ${Math.round(angle * 180 / Math.PI)} degrees`);
+    return found;
+}
+
+// The lowest w at which the phase crosses one of the levels between its values at two ends; null where it does not.
+function firstPassing(transfer, levels) {
+    const [inside, time] = transfer.ownUnits, ends = [inside.beginning, ...inside.monotonePhase, whereItEnds(inside)];
+    for (let i = 1; i < ends.length; i += 1) {
+        const low = ends[i - 1] * (1 + 1e-13), high = ends[i] * (1 - 1e-13), before = inside.phase(low), after = inside.phase(high);
+        for (const level of levels(before, after).sort((x, y) => Math.abs(x - before) - Math.abs(y - before))) {
+            if ((before - level) * (after - level) < 0) {
+                const w = Math.exp(rootBetween((x) => inside.phase(Math.exp(x)) - level, Math.log(low), Math.log(high), 1e-15));
+                return inside.polished(w, level) / time;
+            }
+        }
+    }
+    return null;
+}
+
+// A frequency beyond which the phase turns no more; with dead time, beyond which it has turned once more.
+function whereItEnds(inside) {
+    const corners = [...inside.zeros, ...inside.poles].map(abs);
+    if (!inside.delay) return 1e9 * Math.max(0, ...corners) || 1e9;
+    let w = Math.max(...corners, ...inside.monotonePhase, 1 / inside.delay);
+    const last = Math.min(inside.phase(w), -Math.PI);
+    while (inside.phase(w) > last - 2 * Math.PI) w *= 2;
+    return w;
+}
+
+// The lowest and the highest odd multiple of pi between two phases.
+function oddTurns(before, after) {
+    const low = Math.min(before, after), high = Math.max(before, after);
+    const [first, last] = [Math.ceil((low / Math.PI - 1) / 2), Math.floor((high / Math.PI - 1) / 2)];
+    return first <= last ? [first, last].map((i) => (2 * i + 1) * Math.PI) : [];
+}
+
+// Where a proportional loop just keeps oscillating: a port of loopbook.loop.ultimate_point.
 function frequency(process) {
-    const w = frequencyAt(process, -Math.PI), K180 = magnitudeOf(process, w);
-    return { K180, T180: 2 * Math.PI / w, Ku: 1 / K180 };
+    const { transfer } = uprightTransfer(process), point = (gain, w) => ({ K180: 1 / gain, T180: 2 * Math.PI / w, Ku: gain });
+    if (!transfer.zeros.length && transfer.poles.every((p) => p[1] === 0 && p[0] <= 0)) {
+        const w = frequencyAt(process, -Math.PI);
+        return point(1 / transfer.magnitude(w), w);
+    }
+    const first = firstPassing(transfer, oddTurns);
+    if (first === null) throw new RuleDoesNotApply("the phase does not pass -180 degrees");
+    let begins = null;
+    for (const turns of transfer.delay ? [1 + 1e-9, 30, 1e3] : [1e12]) {
+        const found = borders(transfer, transfer.magnitude(first) / turns), between = found.map(([gain], i) => (i ? Math.sqrt(found[i - 1][0] * gain) : gain / 2));
+        if (found.length) between.push(2 * found.at(-1)[0]);
+        let held = false;
+        for (let i = 0; i < between.length; i += 1) {
+            const holds = isStable(new LoopTransfer(transfer.num.map((c) => between[i] * c), transfer.den, transfer.delay));
+            const [gain, w] = found[i - 1] ?? [0, 0];
+            if (w && held && !holds) return point(gain, w);
+            if (w && holds && !held && begins === null) begins = point(gain, w);
+            held = holds;
+        }
+    }
+    if (begins !== null) return begins;
+    throw new RuleDoesNotApply("no proportional gain holds the process, or only the lowest bounds it");
+}
+
+// [gain, w] at which the proportional loop has a root on the axis, ascending in the gain; w = 0: no oscillation.
+function borders(transfer, least) {
+    const atInfinity = transfer.gainAtInfinity, floor = transfer.delay ? Math.max(least, atInfinity * (1 + 1e-13)) : least;
+    const found = transfer.phaseCrossovers(floor).map((w) => [1 / transfer.magnitude(w), w]), [n, d] = [last(transfer.num), last(transfer.den)];
+    if (n && d && n / d < 0) found.push([-d / n, 0]);
+    if (atInfinity && (transfer.delay || transfer.num[0] / transfer.den[0] < 0)) found.push([1 / atInfinity, 0]);
+    return found.sort((p, q) => p[0] - q[0]);
 }
 
 export const magnitudeOf = (process, w) => abs(div(value(process.num, [0, w]), value(process.den, [0, w])));
