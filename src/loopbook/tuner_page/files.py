@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from loopbook.controllers.pid_forms import FormError, PidStandard
-from loopbook.design.model_file import read_toml
+from loopbook.design.model_file import read_model
 from loopbook.design.study import Study
 from loopbook.process.construct import tf
 from loopbook.process.transfer_function import Process, ProcessError
@@ -27,7 +27,7 @@ def of_file(path: Path) -> TurnedLoop:
     if path.suffix.lower() == ".json":
         return of_regulator(path)
     if path.suffix.lower() == ".toml":
-        return tuner(read_toml(path).process, name=path.stem)
+        return tuner(read_model(path).process, name=path.stem)
     return of_study(Study(path))
 
 

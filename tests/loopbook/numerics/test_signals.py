@@ -105,3 +105,11 @@ def test_no_cell_of_a_step_response_is_a_sliver(delay):
     for horizon in np.linspace(0.5, 5, 200):
         response = open_loop_step(Process([0.37, 1.74], [1, 16.3, 271.7]), horizon).delayed(delay)
         assert response.lengths.min() > 1e-7 * horizon
+
+
+@pytest.mark.parametrize("beyond", [0.0, 1e-16, 3e-16, 1e-15, 1e-13, 1e-11])
+def test_a_horizon_just_beyond_whole_cells_makes_no_cell_of_noise(beyond):
+    """The slope's maximum was sought in a last cell of 3e-14 s, where the polynomial is rounding over rounding."""
+    y = open_loop_step(Process([1], [4, 1, 1]), 96.0 * (1 + beyond))
+    when, slope = y.derivative().maximum()
+    assert (when, slope) == pytest.approx((2.7226888500692, 0.355765566250669), rel=1e-9)

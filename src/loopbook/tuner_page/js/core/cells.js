@@ -9,6 +9,7 @@ import { solveInPlace } from "./linear.js";
 import { COUNT, DEGREE, radau } from "./legendre.js";
 
 const REACH = 4;
+const SLIVER = 1e-9;
 export const MOST_CELLS = 6000;
 
 export class ResponseError extends Error {}
@@ -16,7 +17,7 @@ export class ResponseError extends Error {}
 // Cells on [0, length]: as long as the fastest mode that has not yet died out allows. modes: complex numbers.
 export function gradedMesh(modes, length) {
     const known = modes.map(([re, im]) => [re, Math.hypot(re, im)]).filter(([, size]) => size > 0), edges = [0];
-    while (edges.at(-1) < length) {
+    while (edges.at(-1) < length * (1 - SLIVER)) {
         let fastest = 0;
         for (const [re, size] of known) if (-re * edges.at(-1) < 40) fastest = Math.max(fastest, size);
         if (edges.length > MOST_CELLS) throw new ResponseError("too many periods of the fastest mode");
