@@ -22,12 +22,15 @@ EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let)\b)", re
 
 
 OWN = frozenset(
-    """atGain atPhase axes band bandSoon before blocks branch branchEnd chips clearance clipped colour colours constants
-    crossings curvature deepest depth distance drawRecord drawn edges extremes firstViolation formKnobs formShown
-    gainAtInfinity gainCrossovers integralOfMagnitude kdLimit keyRow kindShown knobs lastFrequency lastStable later
-    logMagnitude logSlope monotonePhase outputs overshoot ownUnits phaseAtStart phaseCrossovers pins plotCard plots
-    possible rangeAround readAddress refresh replayed result rowsTold ruleCard rulesFor scales secondTouch settling
-    showKnobs showRules stairs startPhase toCoefficients typedIn unstableRoots usual variation writeAddress xTicks
+    """axes band bandSoon banding before begin beginning blocks branch branchEnd buttons clearance clipped colour colours
+    constants crossing crossings curvature deepest depth distance draw drawRecord drawn edges evaluated extremes falls
+    firstViolation formKnobs formShown frame future gainAtInfinity gainCrossovers gainLow grab holding instants
+    integralOfMagnitude inverse kdLimit kept keyRow keyTold kindShown knobs lastFrequency lastStable later limited
+    logMagnitude logSlope logX main modes monotonePhase nodes onAxis outputs overshoot ownUnits part past phaseAtStart
+    phaseCrossovers pinButton pins placed plant plotCard plots polished possible printing quiet rangeAround readAddress
+    reference refresh replay replayed result rows rowsTold ruleCard rulesFor scaled scales secondTouch settle settling
+    shortcut showKnobs showRules signals stairs startPhase survey tails toCoefficients travel typedIn
+    unstableRoots useRule usual valueOf variation view waiting whole worst writeAddress writing xLabels xTicks
     yTicks""".split()
 )
 """Properties of the page's own objects that get shorter names in the bundle: long ones, and those used often. None is used

@@ -29,6 +29,8 @@ TOKEN = re.compile(
 LITERAL = re.compile(r"/(?:[^/\\\n\[]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*")
 BEFORE_LITERAL = frozenset("( , = : [ ! & | ? { } ; => && || return".split())
 GLOBALS = frozenset("Array Error Float64Array JSON Map Math Number Object Set String".split())
+SHORTER = {"Infinity": "1/0", "true": "!0", "false": "!1"}
+LONG_GLOBALS = ("Float64Array", "globalThis", "document")
 STATIC = frozenset(("Math", "Number", "Object"))  # what they have needs no `this`
 TOPS = frozenset("const let function class ;".split())
 RESERVED = 23
@@ -212,7 +214,7 @@ def _renamed(found: list[tuple[str, str]], keep: frozenset[str], properties: fro
     for piece, counted in inside.items():
         ordered = sorted(counted, key=lambda n: (-counted[n], n))
         names[piece] = dict(zip(ordered, _short_names(taken | set(names_of_top.values())), strict=False))
-    words = [text for _, text in found]
+    words = [_literal(kind, text) for kind, text in found]
     others = dict(zip(sorted(properties), _short_names({text for kind, text in found if kind == "name"}), strict=False))
     for i, role in roles.items():
         if role == PROPERTY:
@@ -252,8 +254,15 @@ def _together(words: list[str], kinds: list[str]) -> list[str]:
     return result
 
 
+def _literal(kind: str, text: str) -> str:
+    """A number or word in its shortest form."""
+    if kind == "number" and text.startswith("0."):
+        return text[1:]
+    return SHORTER.get(text, text) if kind == "name" else text
+
+
 def _members(words: list[str]) -> list[str]:
-    """``Math.abs`` and its like by one letter or two, declared at the beginning."""
+    """``Math.abs`` and its like, and long globals, by one letter or two, declared at the beginning."""
     at = [i for i in range(len(words) - 2) if words[i] in STATIC and words[i + 1] == "."]
     uses = Counter(f"{words[i]}.{words[i + 2]}" for i in at)
     letters = _short_names(set(words))
@@ -264,6 +273,11 @@ def _members(words: list[str]) -> list[str]:
         member = f"{words[i]}.{words[i + 2]}"
         if member in names:
             words[i : i + 3] = [names[member], "", ""]
+    globals_used = Counter(w for i, w in enumerate(words) if w in LONG_GLOBALS and words[i - 1] not in (".", "?."))
+    for member, n in globals_used.items():
+        if n > 4:
+            names[member] = next(letters)
+            words = [names[w] if w == member and words[i - 1] not in (".", "?.") else w for i, w in enumerate(words)]
     declared = ",".join(f"{name}={member}" for member, name in names.items())
     return [f"let {declared}", ";", *(word for word in words if word)]
 
