@@ -4,17 +4,19 @@ The same text gives the same characters with every Python, which zlib does not p
 
     symbols   0..255 a byte; 256 + n: n + LEAST bytes that stood there before, how far back follows
     distance  the number of its bits as a symbol of a second code, then these bits but the first
-    written   13 bits as two of the 91 LETTERS; before them the lengths of both codes' words, a letter each
+    written   13 bits as two of the 91 LETTERS; before them the lengths of both codes' words, a letter each, 16 + n for n
+              zeros
 """
 
 import heapq
 from collections import Counter, defaultdict
 from collections.abc import Iterable
+from itertools import groupby
 
 LETTERS = "".join(chr(c) for c in range(35, 127) if chr(c) != "\\")
 LEAST, MOST = 4, 67
 SYMBOLS, SLOTS = 256 + MOST - LEAST + 1, 20
-LONGEST = 15
+LONGEST, RUN = 15, 74
 CANDIDATES = 64
 
 
@@ -77,6 +79,15 @@ def _words(lengths: list[int]) -> dict[int, str]:
     return words
 
 
+def _with_runs(lengths: list[int]) -> Iterable[int]:
+    for length, run in groupby(lengths):
+        count = len(list(run))
+        while not length and count:
+            yield 16 + min(count, RUN)
+            count -= min(count, RUN)
+        yield from [length] * count
+
+
 def packed(text: str) -> str:
     """The short form, of printable ASCII without backslashes and double quotes.
 
@@ -96,7 +107,7 @@ def packed(text: str) -> str:
     stream = "".join(bits)
     stream += "0" * (-len(stream) % 13)
     pairs = (divmod(int(stream[i : i + 13], 2), 91) for i in range(0, len(stream), 13))
-    head = "".join(LETTERS[n] for lengths in code_lengths for n in lengths)
+    head = "".join(LETTERS[n] for n in _with_runs([*code_lengths[0], *code_lengths[1]]))
     size = len(text.encode())
     written = "".join(LETTERS[size // 91**k % 91] for k in (2, 1, 0))
     return written + head + "".join(LETTERS[a] + LETTERS[b] for a, b in pairs)

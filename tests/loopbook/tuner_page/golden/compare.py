@@ -124,7 +124,8 @@ def compare(case: Case, name: str, machine: MiniRacer, report: Report) -> None:
     found = json.loads(machine.eval(call, timeout=PATIENCE))
     report.count("loops")
     report.count(case.kind)
-    report.count("dead time over 3 T", case.process.delay > 3 * max(1 / abs(p.real) for p in case.process.poles if p.real))
+    slowest = max((1 / abs(p.real) for p in case.process.poles if p.real), default=0.0)
+    report.count("dead time over 3 T", case.process.delay > 3 * slowest)
     report.count("unstable loops", not stable)
     report.count("verdicts equal", found["stable"] is stable)
     if found["stable"] is not stable or (unstable is not None and _number(found["unstable"]) != unstable):

@@ -3,7 +3,7 @@
 //
 //     G = k z^-d prod(1 - z_i z^-1)/prod(1 - p_i z^-1)
 
-import { abs, add, arg, div, exp, mul, scale, sub } from "./complex.js";
+import { abs, arg, div, exp, mul, scale, sub } from "./complex.js";
 import { closest, peakOf } from "./peaks.js";
 import { roots } from "./polynomials.js";
 import { rootBetween } from "./search.js";
@@ -11,7 +11,8 @@ import { LoopError } from "./transfer.js";
 
 const ON_CIRCLE = 1e-9;
 const AT_ONE = 1e-7;
-const FINEST = 1e-10;
+const FINEST = 1e-7;
+const ROUNDING_AT_ONE = 4e-16;
 const UNDECIDED = 1e-9;
 
 // The z where p0 + p1 z^-1 + ... = 0, without the z at infinity of leading zeros.
@@ -36,11 +37,19 @@ export class CircleTransfer {
     }
 
     at(a) {
-        const turn = [Math.cos(a), -Math.sin(a)];
-        let value = scale([Math.cos(this.d * a), -Math.sin(this.d * a)], this.k);
-        for (const r of this.zeros) value = mul(value, sub([1, 0], mul(r, turn)));
-        for (const r of this.poles) value = div(value, sub([1, 0], mul(r, turn)));
-        return value;
+        const c = Math.cos(a), d = Math.sin(a);
+        let re = this.k * Math.cos(this.d * a), im = -this.k * Math.sin(this.d * a);
+        for (const [x, y] of this.zeros) {
+            const m = 1 - x * c - y * d, n = x * d - y * c, next = re * m - im * n;
+            im = re * n + im * m;
+            re = next;
+        }
+        for (const [x, y] of this.poles) {
+            const m = 1 - x * c - y * d, n = x * d - y * c, size = m * m + n * n, next = (re * m + im * n) / size;
+            im = (im * m - re * n) / size;
+            re = next;
+        }
+        return [re, im];
     }
 
     magnitude(a) {
@@ -49,15 +58,18 @@ export class CircleTransfer {
 
     // d/da log G.
     logSlope(a) {
-        const turn = [Math.cos(a), -Math.sin(a)];
-        let total = [0, -this.d];
-        const part = (r) => {
-            const inside = mul(r, turn);
-            return div([-inside[1], inside[0]], sub([1, 0], inside));
+        const c = Math.cos(a), d = Math.sin(a);
+        let re = 0, im = -this.d;
+        const felt = (roots, sign) => {
+            for (const [x, y] of roots) {
+                const m = x * c + y * d, n = y * c - x * d, size = sign / ((1 - m) ** 2 + n * n);
+                re -= n * size;
+                im += (m - m * m - n * n) * size;
+            }
         };
-        for (const r of this.zeros) total = add(total, part(r));
-        for (const r of this.poles) total = sub(total, part(r));
-        return total;
+        felt(this.zeros, 1);
+        felt(this.poles, -1);
+        return [re, im];
     }
 
     distance(a) {
@@ -128,10 +140,12 @@ export class CircleTransfer {
     monotone(part) {
         const begin = this.first, ratio = (Math.PI / begin) ** (1 / 59), cuts = [];
         for (let i = 0; i < 60; i += 1) cuts.push(i === 59 ? Math.PI : begin * ratio ** i);
-        for (const r of [...this.zeros, ...this.poles]) {
+        const roots = [...this.zeros, ...this.poles];
+        for (const r of roots.filter(onCircle)) {
             const angle = Math.abs(arg(r));
-            if (Math.abs(abs(r) - 1) < ON_CIRCLE && angle > begin && angle < Math.PI) cuts.push(angle);
+            if (angle > begin && angle < Math.PI) cuts.push(angle);
         }
+        const felt = part ? roots.filter((r) => !onCircle(r)) : roots;
         cuts.sort((x, y) => x - y);
         const done = [...cuts];
         let open = [];
@@ -141,19 +155,13 @@ export class CircleTransfer {
             for (const [low, high] of open) {
                 const middle = (low + high) / 2;
                 if (high - low <= FINEST * high) continue;
-                if (Math.abs(this.logSlope(middle)[part]) > this.curvature(low, high) * (high - low) / 2) continue;
+                if (Math.abs(this.logSlope(middle)[part]) > curvature(felt, low, high) * (high - low) / 2) continue;
                 done.push(middle);
                 next.push([low, middle], [middle, high]);
             }
             open = next;
         }
         return [...new Set(done)].sort((x, y) => x - y);
-    }
-
-    curvature(a, b) {
-        let total = 0;
-        for (const r of [...this.zeros, ...this.poles]) total += abs(r) / arcDistances(r, a, b)[0] ** 2;
-        return total;
     }
 
     // All angles in (0, pi) with |G| = 1, ascending.
@@ -194,7 +202,7 @@ export class CircleTransfer {
 
     // The number of closed-loop poles outside the unit circle, by the argument of 1 + G; -1 on the border.
     get unstableRoots() {
-        const outside = this.poles.filter((p) => abs(p) > 1 + ON_CIRCLE).length, passed = this.gainCrossovers;
+        const outside = this.poles.filter((p) => abs(p) > 1 && !onCircle(p)).length, passed = this.gainCrossovers;
         const between = [passed.length ? passed[0] / 2 : 1];
         for (let i = 1; i < passed.length; i += 1) between.push((passed[i - 1] + passed[i]) / 2);
         if (passed.length) between.push((passed.at(-1) + Math.PI) / 2);
@@ -212,6 +220,16 @@ export class CircleTransfer {
     }
 }
 
+// What |d2/da2 log G| cannot exceed on [a, b] by these roots.
+function curvature(roots, a, b) {
+    let total = 0;
+    for (const r of roots) total += abs(r) / arcDistances(r, a, b)[0] ** 2;
+    return total;
+}
+
+// Does a root lie on the unit circle within rounding, measured by how far from z = 1 it is?
+const onCircle = (r) => Math.abs(abs(r) - 1) <= Math.max(ON_CIRCLE * abs(sub(r, [1, 0])), ROUNDING_AT_ONE);
+
 function arcDistances(r, a, b) {
     const size = abs(r), angle = arg(r);
     const far = (x) => Math.hypot(1 - size, 2 * Math.sqrt(size) * Math.sin((x - angle) / 2));
@@ -223,7 +241,7 @@ function arcDistances(r, a, b) {
 // The change of arg(1 - r exp(-ja)) from the real axis outside z = 1.
 function turnedOnCircle(r, a) {
     const size = abs(r), angle = arg(r);
-    if (Math.abs(size - 1) < ON_CIRCLE) {
+    if (onCircle(r)) {
         if (angle === 0) return Math.PI / 2 - a / 2;
         const side = (x) => (x >= 0 ? Math.PI / 2 : -Math.PI / 2) - x / 2;
         return side(a - angle) - side(-angle);

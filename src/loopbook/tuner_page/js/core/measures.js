@@ -25,11 +25,11 @@ export function stepMeasures(y, final, band = 0.02) {
     };
 }
 
-// The integral of |wanted - y|; null where the error does not vanish, or has not by the end.
+// The integral of |wanted - y|; null where the error does not vanish, NaN where it has not by the end.
 export function absoluteError(y, wanted, final) {
     const error = y.scaled(-1, wanted), largest = Math.max(largestOf(error), 1e-300);
     if (Math.abs(wanted - final) > 1e-9 * largest) return null;
-    return Math.abs(error.last()) > SETTLED * largest ? null : error.integralOfMagnitude();
+    return Math.abs(error.last()) > SETTLED * largest ? NaN : error.integralOfMagnitude();
 }
 
 // The largest |u|, and the sum of all its movements.

@@ -48,7 +48,7 @@ export function simulate(sampled, controller, steps, { reference, load, points =
     }
     const history = [], t = [], y = [], instants = [], u = [];
     const entered = (k) => (k >= 0 ? history[k] : 0);
-    let x = new Float64Array(n);
+    let x = new Float64Array(n), other = new Float64Array(n);
     for (let k = 0; k <= steps; k += 1) {
         const now = k * h, acting = entered(tau ? k - whole - 1 : k - whole);
         let measured = tau || whole ? d * acting : 0;
@@ -65,13 +65,12 @@ export function simulate(sampled, controller, steps, { reference, load, points =
                 t.push(now + cut.from);
                 y.push(cut.from === 0 ? measured : value);
             }
-            const next = new Float64Array(n);
             for (let i = 0; i < n; i += 1) {
                 let total = cut.input[i] * v;
                 for (let j = 0; j < n; j += 1) total += cut.step[i * n + j] * x[j];
-                next[i] = total;
+                other[i] = total;
             }
-            x = next;
+            [x, other] = [other, x];
         }
     }
     return { t, y, instants, u };

@@ -20,10 +20,11 @@ function codeOf(lengths) {
 }
 
 export function unpacked(short) {
-    const digits = Array.from(short, (c) => LETTERS.indexOf(c)), begin = 3 + MOST_SYMBOLS + SLOTS;
-    const size = (digits[0] * 91 + digits[1]) * 91 + digits[2], bytes = [];
-    const words = codeOf(digits.slice(3, 3 + MOST_SYMBOLS)), distances = codeOf(digits.slice(3 + MOST_SYMBOLS, begin));
-    let at = begin, held = 0, count = 0;
+    const digits = Array.from(short, (c) => LETTERS.indexOf(c)), lengths = [], bytes = [];
+    const size = (digits[0] * 91 + digits[1]) * 91 + digits[2];
+    let at = 3, held = 0, count = 0;
+    for (; lengths.length < MOST_SYMBOLS + SLOTS; at += 1) lengths.push(...(digits[at] < 16 ? [digits[at]] : new Array(digits[at] - 16).fill(0)));
+    const words = codeOf(lengths.slice(0, MOST_SYMBOLS)), distances = codeOf(lengths.slice(MOST_SYMBOLS));
     const bit = () => {
         if (!count) {
             held = digits[at] * 91 + digits[at + 1];

@@ -173,12 +173,11 @@ function sampledLoop(s, found) {
         placed, circle, h, stable: count === 0, count: count < 0 ? null : count,
         at: (w) => circle.at(w * h), last: Math.PI / h, noise: Math.abs(S[0]),
     });
-    found.margins = found.stable ? { ...sampledMargins(circle, h), delay: null } : null;
+    found.margins = found.stable ? { ...sampledMargins(circle, h), delay: undefined } : null;
     found.poles = placed ? found.wanted : closedPoles(convolve(A, R), convolve(B, S), h);
     const slow = found.poles.filter((p) => p[0] < 0).map((p) => 1 / -p[0]);
     const settle = slow.length && found.stable ? 5 * Math.max(...slow) : 4 * found.time;
     found.span = nice(2.2 * (settle + 2 * found.process.delay));
-    if (found.stable) found.margins.delay = delayMargin(s, found);
     runProgram(s, found, h, placed);
     found.numbers = found.stable ? { peak: Math.max(...found.run.u.map(Math.abs)), rise: null, ...measured(s, found.run) } : null;
 }
@@ -218,9 +217,9 @@ function placement(s, h, B, A, found) {
     return place(B, A, fromRoots(z), observer, 1);
 }
 
-// The smallest dead time that, added to the process, makes the sampled loop unstable: by halving, from what the phase
-// says.
-function delayMargin(s, found) {
+// The smallest dead time that, added to the process, makes a stable sampled loop unstable: by halving, from what the
+// phase says. It takes its time.
+export function delayMargin(s, found) {
     const { R, S } = found.placed ?? pidPolynomials(programOf(s, found.h).state);
     const guesses = found.margins.gainCrossovers.map(({ w, phase }) => ((phase + 360) % 360) * Math.PI / 180 / w);
     if (!guesses.length) return Infinity;

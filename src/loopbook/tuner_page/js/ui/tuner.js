@@ -3,7 +3,7 @@
 import { replay, fitOf } from "../core/replay.js";
 import { texts } from "../core/texts.js";
 import { fits, rules, settingsBy } from "../rules/rules.js";
-import { evaluate, processTime, variants } from "./compute.js";
+import { delayMargin, evaluate, processTime, variants } from "./compute.js";
 import { download, h } from "./elements.js";
 import { Knob } from "./knobs.js";
 import { BodePlot, NyquistPlot, PolesPlot, SensitivityPlot, TimePlot } from "./plots.js";
@@ -363,22 +363,22 @@ export class Tuner {
         this.writeAddress();
         this.times.push(performance.now() - begun);
         if (this.times.length > 2000) this.times.shift();
-        if (!this.band && this.result.stable && state.kind === "pid") this.bandSoon(performance.now() - begun);
+        if (!this.band && this.result.stable) this.bandSoon(performance.now() - begun);
         for (const listener of this.listeners) listener(this);
     }
 
     // The band of what is uncertain: at once where there is time left, else when nothing moves.
     bandSoon(spent) {
         clearTimeout(this.banding);
-        const list = variants(this.state).slice(0, 4);
-        if (!list.length) return;
+        const { circle, margins } = this.result, list = circle ? [] : variants(this.state).slice(0, 4);
         const run = () => {
             const begun = performance.now();
+            if (circle) margins.delay = delayMargin(this.state, this.result);
             const results = list.map((change) => evaluate(this.state, this.given, change)), { t } = this.result.run;
             const courses = results.filter((r) => r.run && r.stable).map((r) => resampled(r.run, t));
             this.band = { t, low: Float64Array.from(this.result.run.y), high: Float64Array.from(this.result.run.y) };
             for (const course of courses) course.forEach((y, i) => { this.band.low[i] = Math.min(this.band.low[i], y); this.band.high[i] = Math.max(this.band.high[i], y); });
-            const longer = this.state.uL > 0 ? evaluate(this.state, this.given, { L: this.state.L * (1 + this.state.uL / 100) }) : null;
+            const longer = this.state.uL > 0 && this.state.L > 0 ? evaluate(this.state, this.given, { L: this.state.L * (1 + this.state.uL / 100) }) : null;
             this.longer = longer;
             this.worst = longer ? (longer.stable ? longer.margins.Ms.value : null) : undefined;
             this.cost = performance.now() - begun;

@@ -32,7 +32,7 @@ export function summary(s, result, worst) {
     return parts.join(" ");
 }
 
-const withUnit = (value, unit, none = "–") => (value === null ? none : value === Infinity ? "∞" : `${shown(value)}${unit}`);
+const withUnit = (value, unit, none = "–") => (value === undefined ? "…" : value === null ? none : value === Infinity ? "∞" : `${shown(value)}${unit}`);
 
 // The numbers: [label, text, what it is].
 export function numbersOf(result) {
