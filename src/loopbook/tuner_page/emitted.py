@@ -29,7 +29,8 @@ def law_script() -> str:
 
 
 def with_places(text: str) -> str:
-    """A program in which the numbers of `MARKS` are places, such as ``\\x02cK\\x03``."""
+    """A program in which the numbers of `MARKS` are places, such as ``\\x02cK\\x03``; g: written with six digits."""
+    text = text.replace(f"CYCLE := {MARKS['h']:g}", "CYCLE := \x02gh\x03")
     for name, value in MARKS.items():
         found = re.compile(rf"-?(\(lb_real\)|REAL#|){re.escape(repr(abs(value)))}")
         text = found.sub(lambda match, name=name: f"\x02{FORMS[match[1]]}{name}\x03", text)  # type: ignore[misc]

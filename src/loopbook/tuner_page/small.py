@@ -172,16 +172,29 @@ def _short_names(taken: set[str]) -> Iterator[str]:
 
 
 def _pieces(found: list[tuple[str, str]], closes: dict[int, int]) -> list[int]:
-    """For each token the number of the statement at the top of the script in which it stands."""
-    piece, at, numbers = 0, 0, []
+    """For each token the number of the statement at the top of the script, or of the method, in which it stands."""
+    piece, at, numbers, in_class = 0, 0, [], -1
     while at < len(found):
-        end = closes.get(at, at) if found[at][0] == "mark" else at
+        opens_class = found[at][1] == "{" and in_class < 0 and _is_class(found, at)
+        if opens_class:
+            in_class = closes[at]
+        end = closes.get(at, at) if found[at][0] == "mark" and not opens_class else at
         numbers += [piece] * (end + 1 - at)
         following = found[end + 1][1] if end + 1 < len(found) else ";"
-        if found[end][1] == ";" or (found[end][1] == "}" and following in TOPS):
+        if end == in_class:
+            in_class, piece = -1, piece + 1
+        elif found[end][1] == "}" and (in_class > 0 or following in TOPS):
+            piece += 1
+        elif found[end][1] == ";" and in_class < 0:
             piece += 1
         at = end + 1
     return numbers
+
+
+def _is_class(found: list[tuple[str, str]], at: int) -> bool:
+    """Does this brace open the body of a class?"""
+    before = [text for _, text in found[max(at - 4, 0) : at]]
+    return before[-2:-1] == ["class"] or (before[-2:-1] == ["extends"] and before[-4:-3] == ["class"])
 
 
 def _at_top(found: list[tuple[str, str]], closes: dict[int, int]) -> set[str]:

@@ -2,11 +2,11 @@
 
 import { held } from "./sampled.js";
 import { trimmed } from "./polynomials.js";
-import { realised } from "./state.js";
+import { polesOf, realised } from "./state.js";
 
 // y at the times of the record, as a deviation from rest; u as a deviation too.
 export function replay(process, times, u) {
-    const den = trimmed(process.den), form = realised(den), plant = { ...form, ...form.row(trimmed(process.num)) };
+    const den = trimmed(process.den), form = realised(den, polesOf(process)), plant = { ...form, ...form.row(trimmed(process.num)) };
     const { n, C, d } = plant, kept = new Map(), y = new Float64Array(times.length);
     const over = (duration) => {
         const key = duration.toPrecision(10);

@@ -6,7 +6,7 @@
 import { exp, scale } from "./complex.js";
 import { expm, times } from "./linear.js";
 import { convolve, fromRoots, trimmed } from "./polynomials.js";
-import { realised } from "./state.js";
+import { polesOf, realised } from "./state.js";
 
 // {step: exp(A d), input: the integral of exp(A s) b over d}.
 export function held({ A, b, n }, duration) {
@@ -24,7 +24,7 @@ export function held({ A, b, n }, duration) {
 }
 
 export function sample(process, h) {
-    const num = trimmed(process.num), den = trimmed(process.den), form = realised(den), { n } = form;
+    const num = trimmed(process.num), den = trimmed(process.den), form = realised(den, polesOf(process)), { n } = form;
     const plant = { ...form, ...form.row(num) }, ratio = process.delay / h, near = Math.round(ratio);
     const exact = Math.abs(ratio - near) < 1e-12 * Math.max(ratio, 1);
     const whole = exact ? near : Math.floor(ratio), tau = exact ? 0 : process.delay - whole * h;

@@ -4,10 +4,16 @@ import { convolve, roots, sum } from "./polynomials.js";
 
 const CLOSE = 1e-14;
 
-// 1/den in state space, {A, b, n, blocks, poles, row}: as a chain where the poles found give the polynomial back, which
-// those of a multiple pole do not. row(num): {C, d} of the output num/den.
-export function realised(den) {
-    const poles = roots(den), factors = factorsOf(poles), again = factors.reduce(convolve, [1]);
+// The poles of a process: of its lags where these are known, which roots of a multiple pole are not.
+export function polesOf({ lags, den }) {
+    if (!lags) return roots(den);
+    return [...lags.map((T) => [-1 / T, 0]), ...(den.at(-1) === 0 ? [[0, 0]] : [])];
+}
+
+// 1/den in state space, {A, b, n, blocks, poles, row}: as a chain where the poles give the polynomial back, which those
+// found of a multiple pole do not. row(num): {C, d} of the output num/den.
+export function realised(den, poles = roots(den)) {
+    const factors = factorsOf(poles), again = factors.reduce(convolve, [1]);
     const scale = Math.max(...den.map(Math.abs));
     const told = den.every((c, i) => Math.abs(again[i] * den[0] - c) <= CLOSE * (Math.abs(c) || scale));
     const n = den.length - 1, monic = den.map((c) => c / den[0]), form = told ? chain(n, factors) : companion(n, monic);

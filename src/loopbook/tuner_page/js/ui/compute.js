@@ -14,7 +14,7 @@ import { emittedLaw } from "../generated/law.js";
 import { pidOf, processOf } from "./state.js";
 
 const POINTS = 420;
-const SETTLED_BY = 21;
+const SETTLED_BY = 25;
 const NICE = [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
 const MOST_SAMPLES = 6000;
 const QUIET_BAND = 0.02;

@@ -22,8 +22,16 @@ function smallNumber(mantissa, power) {
     return `${sign}0.${"0".repeat(-power - 1)}${digits}`;
 }
 
-// A literal of C (c), of Structured Text (s), or plain (p).
+// format(x, "g"): six digits.
+function sixDigits(x) {
+    const [mantissa, power] = x.toExponential(5).split("e").map(Number);
+    if (power >= -4 && power < 6) return String(Number(x.toPrecision(6)));
+    return `${mantissa}e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(2, "0")}`;
+}
+
+// A literal of C (c), of Structured Text (s), plain (p), or with six digits (g).
 function literal(form, value) {
+    if (form === "g") return sixDigits(value);
     const finite = Number.isFinite(value) ? value : Math.sign(value) * UNLIMITED, text = pythonNumber(Math.abs(finite));
     const sign = finite < 0 ? "-" : "";
     if (form === "c") return `${sign}(lb_real)${text}`;

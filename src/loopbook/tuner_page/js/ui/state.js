@@ -61,7 +61,7 @@ function seriesOf({ Kc, Ti, Td, N }) {
     const Tf = Number.isFinite(N) ? Td / N : 0, half = (Ti + Tf) / 2, inside = half * half - Ti * (Td + Tf);
     if (inside < 0) return null;
     const Tis = half + Math.sqrt(inside), Tds = Ti - Tis;
-    return { Ks: Kc * Tis / Ti, Tis, Tds, N: Tf ? Tds / Tf : Infinity };
+    return Tds < 0 ? null : { Ks: Kc * Tis / Ti, Tis, Tds, N: Tf ? Tds / Tf : Infinity };
 }
 
 export const inSeries = (s) => seriesOf(s) !== null;
