@@ -29,7 +29,8 @@ def tune(data: Path | None, output: Path | None, opened: bool) -> None:
     try:
         text = of_file(data).page(f"{data.stem}: turn the knobs") if data else complete()[2]
     except LoopbookError as error:
-        raise click.UsageError(str(error)) from None
+        told = str(error)
+        raise click.UsageError(told if data is None or data.name in told else f"{data.name}: {told}") from None
     target = output or (data.with_name(f"{data.stem}-tuner.html") if data else Path("tuner.html"))
     atomic.write(target, text.encode())
     click.echo(target)

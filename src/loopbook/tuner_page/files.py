@@ -32,10 +32,11 @@ def of_file(path: Path) -> TurnedLoop:
 
 
 def of_study(study: Any) -> TurnedLoop:
-    """A design (`loopbook.design.study.Study`): its model, the recommended regulator, limits, steps and record."""
+    """A design (`loopbook.design.study.Study`): its model, the recommended regulator, steps, record, and the limits that
+    were given; those taken from the record are only what it happened to go through."""
     found, s = study.identified, study.program.settings
     rest = study.rest if found is not None else (0.0, 0.0)
-    limits = tuple(limit - rest[0] for limit in study.limits)
+    limits = tuple(limit - rest[0] for limit in study.limits) if study.actuator.confirmed else None
     pid = PidStandard(s.K, math.inf if s.Ti is None else s.Ti, s.Td, b=s.b, c=s.c, Tf=s.Tf)
     record, names, shares = None, None, {"L": USUAL}
     if found is not None:
@@ -44,8 +45,8 @@ def of_study(study: Any) -> TurnedLoop:
         names = {"y": _name(log.output_name, log.output_unit), "u": _name(log.input_name, log.input_unit)}
         shares = _shares(found.chosen)
     caption = (
-        "The recommended loop on its model, with the record's limits: output and input after the two steps, and the "
-        "Nyquist curve. In the HTML report its knobs can be turned."
+        "The recommended loop on its model: output and input after a set-point and a load step, and the Nyquist curve. In "
+        "the HTML report its knobs can be turned."
     )
     return tuner(
         study.model.process,

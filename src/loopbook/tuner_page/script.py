@@ -9,7 +9,7 @@ from loopbook.tuner_page.emitted import law_script, programs
 from loopbook.tuner_page.formulas import rules_script, rules_words
 from loopbook.tuner_page.packed import packed
 
-MIME = "application/vnd.loopbook.tuner_page+json"
+MIME = "application/vnd.loopbook.tuner+json"
 PLACE = '<div class="lbt-place"></div>'
 """What the script fills; the press puts it and the data side by side."""
 

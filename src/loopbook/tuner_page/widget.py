@@ -20,7 +20,7 @@ def widget(data: Mapping[str, Any]) -> Any:
 
     Raises an error that says what to install where anywidget is not there.
     """
-    anywidget = needed("anywidget", "anywidget")
+    anywidget = needed("anywidget", "widget")
     import traitlets
 
     class TunerWidget(anywidget.AnyWidget):  # type: ignore[misc, name-defined]

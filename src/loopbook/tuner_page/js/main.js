@@ -3,7 +3,7 @@
 import { texts } from "./core/texts.js";
 import { Tuner } from "./ui/tuner.js";
 
-const MIME = "application/vnd.loopbook.tuner_page+json";
+const MIME = "application/vnd.loopbook.tuner+json";
 
 function begin() {
     const places = [...document.querySelectorAll(".live")].filter((place) => place.dataset.mime === MIME);
