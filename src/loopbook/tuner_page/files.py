@@ -81,7 +81,9 @@ def of_regulator(path: Path) -> TurnedLoop:
     if not isinstance(data, Mapping) or not isinstance(data.get("process"), Mapping):
         raise TunerError(f"{path}: process is missing: {{gain, time_constants, delay, integrating}} is expected")
     if data.get("form") != "standard" or not isinstance(data.get("settings"), Mapping):
-        raise TunerError(f"{path}: form = {data.get('form')!r}: a PID regulator, form standard with settings, is expected")
+        raise TunerError(
+            f"{path}: form = {data.get('form')!r}: a PID regulator, form standard with settings, is expected"
+        )
     s, limits = data["settings"], data.get("limits") or {}
     point = (data.get("operating_point") or {}).get("u0", 0.0)
     try:

@@ -1,10 +1,10 @@
 """What the page begins with: a process and a regulator as its knobs stand, plain data.
 
-    state        the knobs, by the names of `js/ui/state.js`; what is left out stands as usual; "inf" is infinite
-    process      {num, den} of a process that no knob can make; the knob K then multiplies it
-    record       {t, u, y, u0, y0} of a step test, shown behind the model
-    names        {y, u}: what the axes are called
-    name         of the program that is written out
+state        the knobs, by the names of `js/ui/state.js`; what is left out stands as usual; "inf" is infinite
+process      {num, den} of a process that no knob can make; the knob K then multiplies it
+record       {t, u, y, u0, y0} of a step test, shown behind the model
+names        {y, u}: what the axes are called
+name         of the program that is written out
 """
 
 import math

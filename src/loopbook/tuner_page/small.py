@@ -91,7 +91,9 @@ def _roles(found: list[tuple[str, str]], closes: dict[int, int]) -> dict[int, in
         elif text == ":" and kind == "mark" and asked[-1]:
             asked[-1] -= 1
         elif kind == "name" and text not in WORDS:
-            defines = after == "(" and found[min(closes[i + 1] + 1, len(found) - 1)][1] == "{" and before not in NO_METHOD
+            defines = (
+                after == "(" and found[min(closes[i + 1] + 1, len(found) - 1)][1] == "{" and before not in NO_METHOD
+            )
             key = inside[-1] and before in ("{", ",")
             if before in (".", "?.") or defines or (key and after == ":"):
                 roles[i] = PROPERTY
@@ -109,7 +111,9 @@ def _declared(found: list[tuple[str, str]], closes: dict[int, int]) -> set[str]:
             names.add(text)
         elif text == "(" and kind == "mark":
             behind, ahead = found[closes[i] + 1 : closes[i] + 2], found[i - 1][1] if i else ";"
-            if behind and (behind[0][1] == "=>" or (behind[0][1] == "{" and ahead not in NO_METHOD - {"catch", "function"})):
+            if behind and (
+                behind[0][1] == "=>" or (behind[0][1] == "{" and ahead not in NO_METHOD - {"catch", "function"})
+            ):
                 names |= {t for k, t in found[i : closes[i]] if k == "name"}
     return names - GLOBALS
 

@@ -33,7 +33,14 @@ SETTINGS = {
     "unstable": (6.0, 30, 0.3, 0.1),
     "a zero": (0.8, 12, 1, 0.2),
 }
-TIMES = {"two lags": 20, "a fraction of a sample": 5, "integrating": 5, "complex poles": 4, "equal lags": 1, "unstable": 2}
+TIMES = {
+    "two lags": 20,
+    "a fraction of a sample": 5,
+    "integrating": 5,
+    "complex poles": 4,
+    "equal lags": 1,
+    "unstable": 2,
+}
 
 
 def given(process):
@@ -44,7 +51,18 @@ def given(process):
 
 def numbers(name, h):
     K, Ti, Td, Tf = SETTINGS[name]
-    return {"K": K, "Ti": Ti, "Td": Td, "Tf": Tf, "b": 0.7, "c": 0.2, "h": h, "u_low": -math.inf, "u_high": math.inf, "rate": 0.0}
+    return {
+        "K": K,
+        "Ti": Ti,
+        "Td": Td,
+        "Tf": Tf,
+        "b": 0.7,
+        "c": 0.2,
+        "h": h,
+        "u_low": -math.inf,
+        "u_high": math.inf,
+        "rate": 0.0,
+    }
 
 
 def cases():

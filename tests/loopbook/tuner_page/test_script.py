@@ -23,7 +23,18 @@ def test_the_script_adds_at_most_120_kilobytes():
 def test_the_script_is_classic_fetches_nothing_and_evaluates_nothing():
     text = script()
     assert "</script" not in text.lower() and "<!--" not in text
-    for word in ("import(", "import ", "export ", "fetch(", "XMLHttpRequest", "WebSocket", "eval(", "new Function", "Worker(", "innerHTML"):
+    for word in (
+        "import(",
+        "import ",
+        "export ",
+        "fetch(",
+        "XMLHttpRequest",
+        "WebSocket",
+        "eval(",
+        "new Function",
+        "Worker(",
+        "innerHTML",
+    ):
         assert word not in text, word
 
 
@@ -38,7 +49,10 @@ def test_a_module_holds_one_idea_and_says_which(path):
     assert len(lines) <= 300 or path.name in LONG
 
 
-LONG = {"plots.js": "each plot with its drag", "tuner.js": "the page's one object, a method for each thing that it does"}
+LONG = {
+    "plots.js": "each plot with its drag",
+    "tuner.js": "the page's one object, a method for each thing that it does",
+}
 
 
 def test_the_bundle_refuses_what_it_would_change():
@@ -48,7 +62,10 @@ def test_the_bundle_refuses_what_it_would_change():
     with pytest.raises(BundleError, match=r"b\.js does not export z"):
         bundle("a.js", {**clash, "a.js": 'import { z } from "./b.js";\n'})
     with pytest.raises(BundleError, match="circle: a.js -> b.js"):
-        bundle("a.js", {"a.js": 'import { x } from "./b.js";\n', "b.js": 'import { y } from "./a.js";\nexport const x = 1;\n'})
+        bundle(
+            "a.js",
+            {"a.js": 'import { x } from "./b.js";\n', "b.js": 'import { y } from "./a.js";\nexport const x = 1;\n'},
+        )
     with pytest.raises(BundleError, match="a pattern at the top"):
         bundle("a.js", {"a.js": "const { x } = Math;\n"})
     with pytest.raises(BundleError, match="of a form that the bundle does not know"):
@@ -57,7 +74,9 @@ def test_the_bundle_refuses_what_it_would_change():
 
 def test_properties_that_get_shorter_names_stand_in_no_text():
     text = re.sub(r"^import .*$", "", "\n".join(path.read_text(encoding="utf-8") for path in MODULES), flags=re.M)
-    words = {word for kind, token in tokens(text) if kind in ("string", "template") for word in re.findall(r"\w+", token)}
+    words = {
+        word for kind, token in tokens(text) if kind in ("string", "template") for word in re.findall(r"\w+", token)
+    }
     keys = set(re.findall(r'"(\w+)":', (FOLDER / "ui" / "words.json").read_text(encoding="utf-8")))
     made = set(re.findall(r"\w+", generated()["rules/formulas.js"] + generated()["generated/law.js"]))
     assert OWN & (words | keys | made) == set()
@@ -107,7 +126,7 @@ def test_all_of_the_core_small_and_not_small_gives_the_same_numbers():
     assert answers[0] == answers[1] and json.loads(answers[0])["Ms"]["value"] > 1
 
 
-TEXTS = ("", "a", "aaaaaaaaaaaaaaaaaaaa" * 9, "é–x±\n\t\"\\`$" * 7, Path(__file__).read_text(encoding="utf-8"))
+TEXTS = ("", "a", "aaaaaaaaaaaaaaaaaaaa" * 9, 'é–x±\n\t"\\`$' * 7, Path(__file__).read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("text", TEXTS, ids=range(len(TEXTS)))

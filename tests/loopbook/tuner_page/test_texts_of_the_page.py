@@ -25,7 +25,16 @@ def test_a_number_is_written_as_python_writes_it(ask, x):
 
 @pytest.mark.parametrize(
     ("text", "value"),
-    [("1,5", 1.5), (" 2.25 ", 2.25), ("−3", -3.0), ("1e-3", 1e-3), ("1 000,5", 1000.5), (" inf", math.inf), ("∞", math.inf), (".5", 0.5)],
+    [
+        ("1,5", 1.5),
+        (" 2.25 ", 2.25),
+        ("−3", -3.0),
+        ("1e-3", 1e-3),
+        ("1 000,5", 1000.5),
+        (" inf", math.inf),
+        ("∞", math.inf),
+        (".5", 0.5),
+    ],
 )
 def test_a_typed_number_is_read(ask, text, value):
     assert ask("page.typed", text) == value
@@ -36,7 +45,16 @@ def test_what_is_no_number_is_not_read(ask, text):
     assert ask("(text) => Number.isNaN(page.typed(text))", text) is True
 
 
-KNOBS = {"K": PLAIN, "T1": PLAIN, "T2": PLAIN, "L": PLAIN, "Kc": PLAIN, "Ti": PLAIN | st.just(math.inf), "Td": PLAIN, "N": PLAIN}
+KNOBS = {
+    "K": PLAIN,
+    "T1": PLAIN,
+    "T2": PLAIN,
+    "L": PLAIN,
+    "Kc": PLAIN,
+    "Ti": PLAIN | st.just(math.inf),
+    "Td": PLAIN,
+    "N": PLAIN,
+}
 
 
 @settings(max_examples=100)
@@ -48,7 +66,14 @@ KNOBS = {"K": PLAIN, "T1": PLAIN, "T2": PLAIN, "L": PLAIN, "Kc": PLAIN, "Ti": PL
     st.sampled_from(["pid", "rst"]),
 )
 def test_everything_is_in_the_address_and_comes_back(ask, knobs, integrating, form, high, kind):
-    state = {**ask("() => page.DEFAULTS"), **knobs, "integrating": integrating, "form": form, "high": high, "kind": kind}
+    state = {
+        **ask("() => page.DEFAULTS"),
+        **knobs,
+        "integrating": integrating,
+        "form": form,
+        "high": high,
+        "kind": kind,
+    }
     text = ask("(s) => page.toText(s, page.DEFAULTS)", state)
     back = ask("(text) => page.fromText(text, page.DEFAULTS)", text)
     assert back.keys() == state.keys()
@@ -57,7 +82,10 @@ def test_everything_is_in_the_address_and_comes_back(ask, knobs, integrating, fo
     assert set(text) <= set("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789=&.+-")
 
 
-@pytest.mark.parametrize("text", ["", "Q=3", "K=abc", "K=", "form=magic", "kind=", "Ti=NaN", "K", "&&", "__proto__=1", "constructor=1", "low=none"])
+@pytest.mark.parametrize(
+    "text",
+    ["", "Q=3", "K=abc", "K=", "form=magic", "kind=", "Ti=NaN", "K", "&&", "__proto__=1", "constructor=1", "low=none"],
+)
 def test_a_broken_address_leaves_what_it_does_not_say(ask, text):
     assert ask("(text) => page.fromText(text, page.DEFAULTS)", text) == ask("() => page.DEFAULTS")
 

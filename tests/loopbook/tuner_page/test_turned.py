@@ -92,7 +92,9 @@ def test_what_has_no_knobs_is_refused(ask, says):
 def test_a_record_is_thinned_and_keeps_its_steps():
     t = np.arange(10_000) * 0.1
     u = np.where(t > 123.4, 2.0, 1.0)
-    record = settings(PROCESSES["one lag"], 0.4, record={"t": t, "u": u, "y": np.sin(t), "u0": 1.0, "y0": 0.0})["record"]
+    record = settings(PROCESSES["one lag"], 0.4, record={"t": t, "u": u, "y": np.sin(t), "u0": 1.0, "y0": 0.0})[
+        "record"
+    ]
     assert len(record["t"]) <= 1501 and len(record["t"]) == len(record["y"]) == len(record["u"])
     moved = record["u"].index(2.0)
     assert record["t"][moved] == pytest.approx(t[u == 2.0][0])
@@ -128,7 +130,11 @@ def test_the_page_is_complete_and_its_policy_strict():
     policy = re.search(r'Content-Security-Policy" content="([^"]+)"', text)[1]
     (own,) = re.findall(r"<script>(.*?)</script>", text, re.S)
     assert own == script() and scripts.policy([own]).split(";")[1] == policy.split(";")[1]
-    assert policy.startswith("default-src 'none'; script-src 'sha256-") and "connect" not in policy and "unsafe-eval" not in policy
+    assert (
+        policy.startswith("default-src 'none'; script-src 'sha256-")
+        and "connect" not in policy
+        and "unsafe-eval" not in policy
+    )
     assert POLICY.count("'none'") == 3 and not re.findall(r"https?:(?!//www\.w3\.org/)", text)
     (inside,) = re.findall(r'<script type="application/json" class="data">(.*?)</script>', text, re.S)
     assert json.loads(inside) == data and "<title>A &lt;title&gt;</title>" in text

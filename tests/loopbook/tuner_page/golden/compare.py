@@ -1,6 +1,6 @@
 """The page's core, in V8, against Python: margins, Ms, responses and verdicts of golden loops.
 
-    python tests/loopbook/tuner_page/golden/compare.py [how many]      (make prove-tuner: all 500)
+python tests/loopbook/tuner_page/golden/compare.py [how many]      (make prove-tuner: all 500)
 """
 
 import json
@@ -187,7 +187,9 @@ def _responses(loop: Loop, found: dict[str, Any], horizon: float, times: np.ndar
         report.wrong.append(f"{name}: {found['responses']}")
         return
     ours = [reference.y(times), reference.u(times), load.y(times), load.u(times)]
-    for what, a, b in zip(("y, set-point", "u, set-point", "y, load", "u, load"), ours, found["responses"], strict=True):
+    for what, a, b in zip(
+        ("y, set-point", "u, set-point", "y, load", "u, load"), ours, found["responses"], strict=True
+    ):
         size = float(np.abs(a).max())
         report.differ(what, 0.0, float(np.abs(a - np.array(b)).max()), name, size)
     if found.get("step"):

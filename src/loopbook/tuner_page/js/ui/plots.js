@@ -107,6 +107,7 @@ export class NyquistPlot {
     }
 
     draw({ main, pins, colours, extra }) {
+        this.curveAt = main.result.at;
         const axes = this.axes.begin(colours).part(0, 1), { box } = axes;
         const height = 3.3, width = height * box.w / box.h, x = [-0.72 * width, 0.28 * width], y = [-0.62 * height, 0.38 * height];
         axes.scales(x, y).grid({ xTicks: ticks(...x, 5), yTicks: ticks(...y, 5), label: "G(jω)" });
@@ -134,6 +135,12 @@ export class NyquistPlot {
         return axes;
     }
 
+    // Where on the canvas the curve is at a frequency; for who cannot see it.
+    gripAt(w) {
+        const [re, im] = this.curveAt(w);
+        return { x: this.axes.x.to(re), y: this.axes.y.to(im), w };
+    }
+
     // A point of the curve dragged: the regulator that puts it there, by K and Ti.
     grab(x, y, { main, s }) {
         const { result } = main;
@@ -146,11 +153,12 @@ export class NyquistPlot {
         });
         if (best < 0) return null;
         const w = grid[best], [re, im] = result.curve[best], { Kc, Ti, Td, N } = s;
+        const off = [this.axes.x.to(re) - x, this.axes.y.to(im) - y]; // the hand beside the point stays beside it
         const Tf = Td && Number.isFinite(N) ? Td / N : 0, below = 1 + (w * Tf) ** 2;
         const lead = [w * Td * w * Tf / below, w * Td / below];
         const C = [Kc * (1 + lead[0]), Kc * (lead[1] - (Number.isFinite(Ti) ? 1 / (w * Ti) : 0))];
         return (px, py) => {
-            const to = [this.axes.x.from(px), this.axes.y.from(py)], size = re * re + im * im;
+            const to = [this.axes.x.from(px + off[0]), this.axes.y.from(py + off[1])], size = re * re + im * im;
             const turn = [(to[0] * re + to[1] * im) / size, (to[1] * re - to[0] * im) / size];
             const wanted = [C[0] * turn[0] - C[1] * turn[1], C[0] * turn[1] + C[1] * turn[0]];
             const K = wanted[0] / (1 + lead[0]), lag = lead[1] - wanted[1] / K;
@@ -183,6 +191,10 @@ export class PolesPlot {
         for (const p of [...pins, main]) for (const [re, im] of p.result.poles ?? []) axes.mark(re, im, "cross", p.style.colour, p === main ? 6 : 4);
         for (const [re, im] of main.result.wanted ?? []) axes.mark(re, im, "ring", colours.current, 9);
         return axes;
+    }
+
+    at(re, im) {
+        return [this.axes.x.to(re), this.axes.y.to(im)];
     }
 
     // A wanted pole dragged: the pair's speed and damping, or where the others lie.

@@ -298,8 +298,14 @@ export class Tuner {
 
     // --- drags ---
 
+    // The plot that is shown in a card.
+    plotOf(name) {
+        const { plots } = this.plots[name], kinds = Object.keys(plots);
+        return plots[kinds.length > 1 ? this.view[name] : kinds[0]];
+    }
+
     drags(name, canvas) {
-        const plotOf = () => Object.values(this.plots[name].plots).find((_, i, all) => all.length === 1) ?? this.plots[name].plots[this.view[name]];
+        const plotOf = () => this.plotOf(name);
         const at = (event) => {
             const box = canvas.getBoundingClientRect();
             return [event.clientX - box.left, event.clientY - box.top];
