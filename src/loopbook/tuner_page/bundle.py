@@ -22,19 +22,24 @@ EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let)\b)", re
 
 
 OWN = frozenset(
-    """axes band bandSoon banding before begin beginning blocks branch branchEnd buttons clearance clipped colour colours
-    constants crossing crossings curvature deepest depth distance draw drawRecord drawn edges evaluated extremes falls
-    firstViolation formKnobs formShown frame future gainAtInfinity gainCrossovers gainLow grab holding instants
-    integralOfMagnitude inverse kdLimit kept keyRow keyTold kindShown knobs lastFrequency lastStable later limited
-    logMagnitude logSlope logX main modes monotonePhase nodes onAxis outputs overshoot ownUnits part past phaseAtStart
-    phaseCrossovers pinButton pins placed plant plotCard plots polished possible printing quiet rangeAround readAddress
-    reference refresh replay replayed result rows rowsTold ruleCard rulesFor scaled scales secondTouch settle settling
-    shortcut showKnobs showRules signals stairs startPhase survey tails toCoefficients travel typedIn
-    unstableRoots useRule usual valueOf variation view waiting whole worst writeAddress writing xLabels xTicks
-    yTicks""".split()
+    re.findall(
+        r"\w+",
+        """axes band bandSoon banding before begin beginning blocks branch branchEnd buttons clearance clipped
+        colour colours constants crossing crossings curvature deepest depth distance draw drawRecord drawn edges
+        evaluated extremes falls firstViolation formKnobs formShown frame future gainAtInfinity gainCrossovers
+        gainLow grab holding instants integralOfMagnitude inverse kdLimit kept keyRow keyTold kindShown knobs
+        lastFrequency lastStable later limited logMagnitude logSlope logX main modes monotonePhase nodes onAxis
+        outputs overshoot ownUnits part past phaseAtStart phaseCrossovers pinButton pins placed plant plotCard
+        plots polished possible printing quiet rangeAround readAddress reference refresh replay replayed result
+        rows rowsTold ruleCard rulesFor scaled scales secondTouch settle settling shortcut showKnobs showRules
+        signals stairs startPhase survey tails toCoefficients travel typedIn unstableRoots useRule usual valueOf
+        variation view waiting whole worst writeAddress writing xLabels xTicks yTicks""",
+    )
 )
-"""Properties of the page's own objects that get shorter names in the bundle: long ones, and those used often. None is used
-of an object of the browser's, nor named in a text."""
+"""Properties of the page's own objects that get shorter names in the bundle: long ones, and those used often.
+
+None is used of an object of the browser's, nor named in a text.
+"""
 
 
 class BundleError(LoopbookError):

@@ -9,12 +9,12 @@ from derivations.errors import LoopbookError
 from notebook_reports.project import atomic
 
 
-@click.command()
+@click.command("tune")
 @click.argument("data", required=False, type=click.Path(path_type=Path), metavar="[RECORD|MODEL|REGULATOR]")
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="PAGE.HTML",
               help="Where the page goes; default: beside the data, or tuner.html here.")  # fmt: skip
 @click.option("--open", "opened", is_flag=True, help="Open it in the browser.")
-def tune(data: Path | None, output: Path | None, opened: bool) -> None:
+def tune_page(data: Path | None, output: Path | None, opened: bool) -> None:
     """A page on which the knobs of a loop are turned: one file that needs nothing, with exact dead time.
 
     From a record (CSV, spreadsheet, Parquet): the identified model with the recommended regulator, the record behind

@@ -40,5 +40,5 @@ def with_places(text: str) -> str:
 @cache
 def programs() -> dict[str, str]:
     """C and Structured Text by file name, with places."""
-    block = pid_block(**MARKS)
+    block = pid_block(**MARKS)  # type: ignore[arg-type]
     return {name: with_places(text) for target in ("c", "st") for name, text in emit(block, target).items()}

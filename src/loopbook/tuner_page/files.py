@@ -32,8 +32,10 @@ def of_file(path: Path) -> TurnedLoop:
 
 
 def of_study(study: Any) -> TurnedLoop:
-    """A design (`loopbook.design.study.Study`): its model, the recommended regulator, steps, record, and the limits that
-    were given; those taken from the record are only what it happened to go through."""
+    """A design (`loopbook.design.study.Study`): its model, the recommended regulator, steps, record and limits.
+
+    Limits taken from the record, which are only what it happened to go through, are left out.
+    """
     found, s = study.identified, study.program.settings
     rest = study.rest if found is not None else (0.0, 0.0)
     limits = tuple(limit - rest[0] for limit in study.limits) if study.actuator.confirmed else None
@@ -45,8 +47,8 @@ def of_study(study: Any) -> TurnedLoop:
         names = {"y": _name(log.output_name, log.output_unit), "u": _name(log.input_name, log.input_unit)}
         shares = _shares(found.chosen)
     caption = (
-        "The recommended loop on its model: output and input after a set-point and a load step, and the Nyquist curve. In "
-        "the HTML report its knobs can be turned."
+        "The recommended loop on its model: output and input after a set-point and a load step, and the Nyquist "
+        "curve. In the HTML report its knobs can be turned."
     )
     return tuner(
         study.model.process,

@@ -166,11 +166,12 @@ def rules_words() -> dict[str, Any]:
 @cache
 def rules_script() -> str:
     """The text of the module `rules/formulas.js`."""
+    rules = ", ".join(_rules()[0])
     return (
         'import { texts } from "../core/texts.js";\n'
         "const sentences = texts.sentences;\n"
         "const EMPTY = { defaults: {}, refusals: [], cautions: [], dead: [], b: () => 1 };\n"
-        f"export const published = [{', '.join(_rules()[0])}].map((rule, i) => ({{ ...EMPTY, ...texts.rules[i], ...rule }}));\n"
+        f"export const published = [{rules}].map((rule, i) => ({{ ...EMPTY, ...texts.rules[i], ...rule }}));\n"
         f"export const twoLagEquations = {{\n{_two_lags()}}};\n"
         f"export const migoBranch = {{\n{_branch()}}};\n"
         f"export const byAngles = {{\n{_angles()}}};\n"

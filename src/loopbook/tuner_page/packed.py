@@ -4,8 +4,8 @@ The same text gives the same characters with every Python, which zlib does not p
 
     symbols   0..255 a byte; 256 + n: n + LEAST bytes that stood there before, how far back follows
     distance  the number of its bits as a symbol of a second code, then these bits but the first
-    written   13 bits as two of the 91 LETTERS; before them the lengths of both codes' words, a letter each, 16 + n for n
-              zeros
+    written   13 bits as two of the 91 LETTERS; before them the lengths of both codes' words, a letter each, 16 + n
+              for n zeros
 """
 
 import heapq
@@ -54,7 +54,7 @@ def _lengths(counts: Counter[int], size: int) -> list[int]:
     """The length of each symbol's word in Huffman's code, 0 for those that do not occur."""
     weights = dict(counts)
     while True:
-        heap = [(n, symbol, (symbol,)) for symbol, n in sorted(weights.items())]
+        heap: list[tuple[int, int, tuple[int, ...]]] = [(n, symbol, (symbol,)) for symbol, n in sorted(weights.items())]
         heapq.heapify(heap)
         lengths = [0] * size
         if len(heap) == 1:

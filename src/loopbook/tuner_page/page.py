@@ -23,8 +23,8 @@ PAGE = """\
 <meta name="color-scheme" content="light dark">
 <title>{title}</title>
 <style>
-body {{ margin: 0; padding: 10px 14px; font: 15px/1.45 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif;
-  background: #eaeef2; color: #16202b; }}
+body {{ margin: 0; padding: 10px 14px; background: #eaeef2; color: #16202b;
+  font: 15px/1.45 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; }}
 h1 {{ font-size: 17px; margin: 2px 2px 8px; display: flex; gap: 12px; align-items: baseline; flex-wrap: wrap; }}
 h1 small {{ font-size: 13px; font-weight: 400; color: #5a6673; }}
 .live .lbt {{ width: 100%; margin-left: 0; transform: none; }}
@@ -49,7 +49,7 @@ noscript svg, noscript img {{ max-width: 100%; height: auto; background: #fff; }
 
 
 def page(data: Mapping[str, Any], title: str, about: str = "", still: str = "") -> str:
-    """A complete page. data: see `loopbook.tuner_page.settings`. still: markup of the figure that stands for it, an SVG."""
+    """A complete page. data: see `loopbook.tuner_page.settings`. still: markup of its figure, an SVG."""
     text = script()
     digest = base64.b64encode(sha256(text.encode()).digest()).decode()
     return PAGE.format(

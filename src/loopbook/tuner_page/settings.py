@@ -116,8 +116,8 @@ def _standard(regulator: Any) -> PidStandard:
         return PidStandard(float(regulator))
     if isinstance(regulator, PidSettings):
         Ti = math.inf if regulator.Ti is None else float(regulator.Ti)
-        numbers = (float(x) for x in (regulator.K, Ti, regulator.Td, regulator.b, regulator.c))
-        return PidStandard(*numbers, Tf=float(regulator.Tf))
+        K, Td, b, c, Tf = (float(x) for x in (regulator.K, regulator.Td, regulator.b, regulator.c, regulator.Tf))
+        return PidStandard(K, Ti, Td, b=b, c=c, Tf=Tf)
     form = regulator.as_built() if hasattr(regulator, "as_built") else regulator
     if not hasattr(form, "standard"):
         raise TunerError(

@@ -37,7 +37,8 @@ def regulator_of(data: Mapping[str, Any]) -> PidStandard:
     """The PID regulator that the page's data stand for."""
     s = data["state"]
     Ti, N = (math.inf if s[key] == "inf" else s[key] for key in ("Ti", "N"))
-    return PidStandard(s["Kc"], Ti, s["Td"], b=s["b"], c=s["c"], N=N if s["Td"] else None)
+    filtered = {"N": N} if s["Td"] else {}
+    return PidStandard(s["Kc"], Ti, s["Td"], b=s["b"], c=s["c"], **filtered)
 
 
 def loop_of(data: Mapping[str, Any]) -> Loop | SampledLoop:

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from loopbook.process.transfer_function import Process
 from loopbook.tuner_page.page import page
 from loopbook.tuner_page.script import MIME
 from loopbook.tuner_page.settings import settings
@@ -73,6 +72,7 @@ def tuner(process: Any, pid: Any = None, *, caption: str = "", alt: str = "", **
     more: of `loopbook.tuner_page.settings.settings`: limits, h, steps, uncertainty, record, names, poles, name.
     Raises TunerError for what has no knobs.
 
+    >>> from loopbook.process.transfer_function import Process
     >>> turned = tuner(Process.fopdt(2, 10, 3), 0.5)
     >>> turned.data["state"]["T1"], turned.pid.K
     (10.0, 0.5)

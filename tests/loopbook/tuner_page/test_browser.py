@@ -259,9 +259,7 @@ def test_poles_are_dragged(opened):
     tab = opened(settings(PROCESS, h=4.0, poles={"speed": 0.05, "damping": 0.7, "rest": 0.06, "observer": 0.2}))
     assert number(tab, "slowest pole")
     box = tab.locator(".lbt-plot canvas").nth(1).bounding_box()
-    at = tab.evaluate(
-        "(() => { const t = document.querySelector('.live').tuner, p = t.plotOf('right'); return p.at(-0.05 * 0.7, 0.05 * Math.sqrt(0.51)); })()"
-    )
+    at = tab.evaluate("document.querySelector('.live').tuner.plotOf('right').at(-0.05 * 0.7, 0.05 * Math.sqrt(0.51))")
     tab.mouse.move(box["x"] + at[0], box["y"] + at[1])
     tab.mouse.down()
     tab.mouse.move(box["x"] + at[0] - 30, box["y"] + at[1], steps=4)
@@ -272,9 +270,11 @@ def test_poles_are_dragged(opened):
 
 def test_everything_has_a_name_and_the_summary_is_spoken(opened):
     tab = opened()
+    kinds = ", ".join(f".lbt {kind}" for kind in ("input", "button", "select", "canvas", "fieldset"))
     nameless = tab.evaluate(
-        """[...document.querySelectorAll('.lbt input, .lbt button, .lbt select, .lbt canvas, .lbt fieldset')].filter((e) =>
-           !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim() || e.title)).map((e) => e.outerHTML)"""
+        f"""[...document.querySelectorAll('{kinds}')].filter((e) =>
+           !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim() || e.title)).map(
+             (e) => e.outerHTML)"""
     )
     assert nameless == []
     spoken = tab.locator('.lbt-words[role="status"][aria-live="polite"]').inner_text()
@@ -332,7 +332,8 @@ def test_the_widget_gives_its_state_back(opened):
         module().replace("export default loopbookTuner.widget;", "globalThis.widget = loopbookTuner.widget;")
     }
     const kept = {{ data: {json.dumps(DATA)}, state: {json.dumps(DATA["state"])} }};
-    globalThis.model = {{ get: (k) => kept[k], set: (k, v) => {{ kept[k] = v; }}, save_changes: () => {{ globalThis.saved = true; }} }};
+    globalThis.model = {{ get: (k) => kept[k], set: (k, v) => {{ kept[k] = v; }},
+        save_changes: () => {{ globalThis.saved = true; }} }};
     widget.render({{ model, el: document.getElementById("here") }});</script>"""
     tab = opened(text)
     set_knob(tab, "Kc", "0.9")

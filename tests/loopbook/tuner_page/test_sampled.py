@@ -1,4 +1,4 @@
-"""Sampled loops of the page against Python: exact sampling, margins on the circle, the program that runs, placed poles."""
+"""Sampled loops of the page against Python: sampling, margins on the circle, the program that runs, placed poles."""
 
 import math
 
@@ -95,8 +95,13 @@ def rst_of(name, h):
 MARGINS = """(process, h, settings) => {
     const law = page.emittedLaw({ ...settings, Tt: Infinity });
     const { R, S, T } = page.pidPolynomials(law.state), { B, A, modes } = page.pulseTransfer(page.sample(process, h));
-    const convolve = (p, q) => { const r = new Array(p.length + q.length - 1).fill(0); p.forEach((a, i) => q.forEach((b, j) => { r[i + j] += a * b; })); return r; };
-    const circle = new page.CircleTransfer(convolve(S, B), convolve(R, A), [...page.zerosOf(S), ...page.zerosOf(B)], [...page.zerosOf(R), ...modes]);
+    const convolve = (p, q) => {
+        const r = new Array(p.length + q.length - 1).fill(0);
+        p.forEach((a, i) => q.forEach((b, j) => { r[i + j] += a * b; }));
+        return r;
+    };
+    const zeros = [...page.zerosOf(S), ...page.zerosOf(B)], poles = [...page.zerosOf(R), ...modes];
+    const circle = new page.CircleTransfer(convolve(S, B), convolve(R, A), zeros, poles);
     const count = circle.unstableRoots;
     return { R, S, T, count, margins: count ? null : page.sampledMargins(circle, h) };
 }"""
@@ -137,7 +142,8 @@ RUN = """(process, h, settings, steps, size, load) => {
     law.state.arriving = false;
     const program = { step: (r, y) => law.step(r, y, 0) };
     const half = Math.round(steps / 2) * h;
-    return page.simulate(page.sample(process, h), program, steps, { reference: () => size, load: (t) => (t >= half - h / 1e6 ? load : 0), points: 1 });
+    const signals = { reference: () => size, load: (t) => (t >= half - h / 1e6 ? load : 0), points: 1 };
+    return page.simulate(page.sample(process, h), program, steps, signals);
 }"""
 
 

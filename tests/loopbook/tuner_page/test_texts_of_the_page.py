@@ -157,8 +157,11 @@ def test_the_regulator_is_one_that_code_and_tune_read(ask, tmp_path):
 
 EVALUATE = """(state, given) => {
     const usual = { ...page.DEFAULTS, ...state }, result = page.evaluate(usual, given ?? null);
-    return { words: page.summary(usual, result, 1.83), numbers: page.numbersOf(result), stable: result.stable, error: result.error ?? "",
-             found: result.numbers, Ms: result.margins && result.margins.Ms.value, ends: result.run && [result.run.y.length, result.span] };
+    return {
+        words: page.summary(usual, result, 1.83), numbers: page.numbersOf(result), found: result.numbers,
+        stable: result.stable, error: result.error ?? "", Ms: result.margins && result.margins.Ms.value,
+        ends: result.run && [result.run.y.length, result.span],
+    };
 }"""
 
 
@@ -171,10 +174,17 @@ def test_an_unstable_loop_has_words_and_no_numbers(ask):
 
 @pytest.mark.parametrize(
     "state",
-    [{}, {"h": 2.0}, {"low": -0.5, "high": 0.6}, {"integrating": True, "T1": 5.0, "T2": 0.0, "Kc": 0.05}, {"L": 0.0}, {"Tz": -5.0},
-     {"kind": "rst", "h": 4.0, "speed": 0.05, "damping": 0.8, "rest": 0.05, "observer": 0.2}, {"T1": -40.0, "T2": 0.0, "L": 2.0, "K": -1.0, "Kc": 8.0, "Ti": 60.0}],
-    ids=["usual", "sampled", "limits", "integrating", "no dead time", "inverse response", "placed", "unstable process"],
-)  # fmt: skip
+    [
+        pytest.param({}, id="usual"),
+        pytest.param({"h": 2.0}, id="sampled"),
+        pytest.param({"low": -0.5, "high": 0.6}, id="limits"),
+        pytest.param({"integrating": True, "T1": 5.0, "T2": 0.0, "Kc": 0.05}, id="integrating"),
+        pytest.param({"L": 0.0}, id="no dead time"),
+        pytest.param({"Tz": -5.0}, id="inverse response"),
+        pytest.param({"kind": "rst", "h": 4.0, "speed": 0.05, "rest": 0.05, "observer": 0.2}, id="placed"),
+        pytest.param({"T1": -40.0, "T2": 0.0, "L": 2.0, "K": -1.0, "Kc": 8.0, "Ti": 60.0}, id="unstable process"),
+    ],
+)
 def test_every_kind_of_loop_is_evaluated(ask, state):
     found = ask(EVALUATE, state, None)
     assert found["error"] == "" and found["stable"] and len(found["numbers"]) == 11

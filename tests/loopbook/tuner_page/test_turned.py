@@ -1,4 +1,4 @@
-"""`lb.tuner` and what it shows: the page's data, the figure that stands for it, the page itself, the command, a widget."""
+"""`lb.tuner` and what it shows: the page's data, its figure, the page itself, the command, a widget."""
 
 import importlib.metadata
 import importlib.util
@@ -19,7 +19,7 @@ from loopbook.tuner_page.page import POLICY, page
 from loopbook.tuner_page.script import MIME, script
 from loopbook.tuner_page.settings import TunerError, settings
 from loopbook.tuner_page.shown import complete, shown
-from loopbook.tuner_page.still import loop_of, process_of, regulator_of, still_svg
+from loopbook.tuner_page.still import loop_of, process_of, still_svg
 from loopbook.tuner_page.turned import tuner
 from loopbook.tuner_page.widget import module, widget
 from notebook_reports.export import scripts

@@ -31,7 +31,9 @@ SCRIPT = """
 const plain = (value) => JSON.stringify(value, (_, x) => (x === Infinity ? "inf" : x === -Infinity ? "-inf" : x));
 function answer(process, pid, horizon, times, final) {
     const { core } = golden, found = {}, loop = core.loopTransfer(process, pid);
-    const tried = (name, compute) => { try { found[name] = compute(); } catch (error) { found[name] = String(error); } };
+    const tried = (name, compute) => {
+        try { found[name] = compute(); } catch (error) { found[name] = String(error); }
+    };
     tried("unstable", () => core.unstableRoots(loop));
     tried("stable", () => core.isStable(loop));
     tried("margins", () => core.margins(loop));
