@@ -168,16 +168,17 @@ export function decayRate(loop) {
             throw error;
         }
     };
-    const guess = inside.delay ? slowest(rootsFrom(inside, [
-        ...inside.gainCrossovers.map((w) => [0, w]), ...inside.zeros, ...inside.poles,
-    ])) : slowest(roots(roundedSum(inside.den, inside.num)));
-    if (guess > 0 && holds(guess * (1 - NARROW)) && !holds(guess * (1 + NARROW))) return guess * (1 - NARROW) / time;
-    return bisected(inside, holds) / time;
+    const { delay } = inside;
+    const foundFrom = (starts) => {
+        const found = delay ? rootsFrom(inside, starts()) : roots(roundedSum(inside.den, inside.num));
+        const guess = Math.min(Infinity, ...found.map((r) => -r[0]));
+        return guess > 0 && holds(guess * (1 - NARROW)) && !holds(guess * (1 + NARROW)) && guess * (1 - NARROW);
+    };
+    const { gainCrossovers, zeros, poles } = inside;
+    return (foundFrom(() => [...gainCrossovers.map((w) => [0, w]), ...zeros, ...poles]) || bisected(inside, holds, foundFrom)) / time;
 }
 
-const slowest = (found) => Math.min(Infinity, ...found.map((r) => -r[0]));
-
-function bisected(loop, holds) {
+function bisected(loop, holds, foundFrom) {
     const radius = Math.max(0, ...loop.poles.map(abs), ...loop.zeros.map(abs));
     let high = Math.max(radius, loop.delay ? 1 / loop.delay : 0) || 1;
     for (let i = 0; i < 60 && holds(high); i += 1) high *= 2;
@@ -191,6 +192,8 @@ function bisected(loop, holds) {
     while (high - low > 1e-6 * high) {
         const middle = (low + high) / 2;
         if (holds(middle)) low = middle; else high = middle;
+        const rate = foundFrom(() => [[-middle, 0], ...shifted(loop, middle).gainCrossovers.map((w) => [-middle, w])]);
+        if (rate) return rate;
     }
     return low;
 }

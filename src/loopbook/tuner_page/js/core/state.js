@@ -25,14 +25,15 @@ export function realised(den, poles = roots(den)) {
     return { ...form, n, poles, row };
 }
 
-// The monic factors of degree 1 and 2, slowest first.
+// The monic factors of degree 1 and 2, fastest first: the other way, slow states would be large and cancel.
 function factorsOf(poles) {
     const factors = [];
     poles.forEach(([re, im]) => {
         if (im === 0) factors.push([1, -re]);
         else if (im > 0) factors.push([1, -2 * re, re * re + im * im]);
     });
-    return factors.sort((p, q) => Math.abs(p.at(-1)) - Math.abs(q.at(-1)));
+    const size = (q) => Math.abs(q.at(-1)) ** (1 / (q.length - 1));
+    return factors.sort((p, q) => size(q) - size(p));
 }
 
 // One block, in the form in which the last state's derivatives are the others.
