@@ -12,7 +12,7 @@ const boundsOf = (lists, floor = 0) => {
     for (const list of lists) for (const v of list) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
     if (low > high) [low, high] = [0, 1];
     const room = 0.07 * (high - low || Math.max(Math.abs(high), floor) || 1);
-    return [low - room, high + room];
+    return [low - room, high + 2 * room]; // the label stands above
 };
 
 // Limits of what is shown of an unstable loop: it would dwarf everything.
@@ -67,7 +67,7 @@ export class TimePlot {
         axes.text(span / 2, yRange[0], "load", { colour: colours.quiet, dx: 4, dy: -9 });
         if (!stable) axes.text(span, yRange[1], "unstable", { colour: colours.bad, align: "right", dx: -8, dy: 12 });
         this.yScale = axes.x;
-        axes.part(0.645, 1).scales([0, span], uRange).grid({ xTicks, yTicks: ticks(...uRange, 3), label: names.u });
+        axes.part(0.645, 1).scales([0, span], uRange).grid({ xTicks, yTicks: ticks(...uRange, 3), label: `${names.u}; t in s` });
         for (const limit of [s.low, s.high]) if (limit !== null) axes.rule({ y: limit, colour: colours.bad, dash: "dot", width: 1.5 });
         for (const p of runs) {
             const { run: own } = p.result;
@@ -227,12 +227,15 @@ export class BodePlot {
         axes.part(0, 0.52).scales(x, y, { logX: true, logY: true }).grid({ xTicks, yTicks: [0.01, 0.1, 1, 10, 100], xLabels: false, label: "|G(jω)|", low: true });
         axes.rule({ y: 1, colour: colours.quiet, dash: "dash" });
         for (const p of all) axes.line(p.result.grid, p.result.curve.map((v) => Math.hypot(...v)), p.style);
-        for (const { w } of result.margins?.gainCrossovers ?? []) axes.mark(w, 1, "ring", colours.current, 4.5);
-        for (const { w, gain } of result.margins?.phaseCrossovers ?? []) if (w > 0) axes.line([w, w], [1, 1 / gain], { colour: colours.bad, width: 2 });
+        const { gainCrossovers = [], phaseCrossovers = [], gain: most, gainLow } = result.margins ?? {};
+        for (const { w } of gainCrossovers) axes.mark(w, 1, "ring", colours.current, 4.5);
+        for (const { w, gain } of phaseCrossovers) {
+            if (w > 0 && (gain === most || gain === gainLow)) axes.line([w, w], [1, 1 / gain], { colour: colours.bad, width: 2 });
+        }
         axes.part(0.57, 1).scales(x, [-330, 30], { logX: true }).grid({ xTicks, yTicks: [0, -90, -180, -270], label: "phase, °; ω in rad/s", low: true });
         axes.rule({ y: -180, colour: colours.quiet, dash: "dash" });
         for (const p of all) axes.line(p.result.grid, unwrapped(p.result.curve), p.style);
-        for (const { w, phase } of result.margins?.gainCrossovers ?? []) {
+        for (const { w, phase } of gainCrossovers) {
             axes.line([w, w], [-180, -180 + phase], { colour: colours.bad, width: 2 }).mark(w, -180 + phase, "ring", colours.current, 4.5);
         }
         return axes;

@@ -376,7 +376,7 @@ export class Tuner {
     // The band of what is uncertain: at once where there is time left, else when nothing moves.
     bandSoon(spent) {
         clearTimeout(this.banding);
-        const { circle, margins } = this.result, list = circle ? [] : variants(this.state).slice(0, 4);
+        const { circle, margins } = this.result, list = variants(this.state).slice(0, 4);
         const run = () => {
             const begun = performance.now();
             if (circle) margins.delay = delayMargin(this.state, this.result);
