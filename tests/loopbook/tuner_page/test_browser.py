@@ -23,7 +23,7 @@ from loopbook.tuner_page.widget import module
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: make browser")
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 if not CHROMIUM:
-    pytest.skip("no chromium on PATH: apt-get install chromium", allow_module_level=True)
+    pytest.skip("no chromium on PATH: apt-get install chromium, then make browser", allow_module_level=True)
 pytestmark = [pytest.mark.xdist_group("browser"), pytest.mark.long]
 
 QUIET = (
