@@ -30,7 +30,7 @@ NEEDS_PYTHON = $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3,))' >/de
 all: $(READY) ## run all notebooks and write all reports (the default)
 	@$(BIN)/loopbook --root . build $(jobs) $(if $(FROZEN),--frozen)
 
-test: $(READY) ## run the whole test suite
+test: $(READY) ## run the tests, of long surveys a seeded share
 	@$(BIN)/python -m pytest -n auto --dist loadfile
 
 whole: $(READY) ## the test suite with every survey whole, of which `make test` runs a seeded share

@@ -34,10 +34,17 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     config.addinivalue_line("markers", f"builds: {BUILDS}")
+    config.addinivalue_line("markers", "seeds(part, whole): a test for each seed, the first ones alone in `make test`")
     config.addinivalue_line("markers", "whole: one more of a kind that `make test` tries; for `make whole` alone")
     config.addinivalue_line("markers", "long: computes for over 0.4 s (surveys, many seeds); left out by --quick")
     if config.getoption("--quick"):
         _refuse_builders()
+
+
+def pytest_generate_tests(metafunc):
+    for marker in metafunc.definition.iter_markers("seeds"):
+        part, whole = marker.args
+        metafunc.parametrize("seed", range(whole if metafunc.config.getoption("--whole") else part))
 
 
 def pytest_ignore_collect(collection_path, config):
@@ -45,7 +52,9 @@ def pytest_ignore_collect(collection_path, config):
     if not config.getoption("--quick") or collection_path.suffix != ".py":
         return None
     marked = re.search(
-        r"^pytestmark = .*mark\.(builds|long)\b", collection_path.read_text(encoding="utf-8"), re.MULTILINE
+        r"^pytestmark = (?:\[\s*)?pytest\.mark\.(builds|long)\b",
+        collection_path.read_text(encoding="utf-8"),
+        re.MULTILINE,
     )
     return True if marked else None
 

@@ -18,6 +18,7 @@ import argparse
 import json
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -163,6 +164,12 @@ def verdict_moved(old: dict[str, Any], new: dict[str, Any]) -> bool:
     return old["verdict"] != new["verdict"]
 
 
+def outcome_moved(old: dict[str, Any], new: dict[str, Any]) -> bool:
+    """Another verdict, or one that does not hold for other parts of the statement; numbers in their names aside."""
+    parts = [re.sub(r"[\d.]+", "#", x["fields"].get("evidence", "").partition("Not for: ")[2]) for x in (old, new)]
+    return verdict_moved(old, new) or parts[0] != parts[1]
+
+
 def evidence_moved(old: dict[str, Any], new: dict[str, Any]) -> bool:
     return old["fields"].get("evidence") != new["fields"].get("evidence")
 
@@ -173,7 +180,7 @@ def computed_moved(old: dict[str, Any], new: dict[str, Any]) -> bool:
 
 WAYS = {
     "value": {"check": fails_now},
-    "claim": {"check": verdict_moved, "evidence": evidence_moved},
+    "claim": {"check": outcome_moved, "evidence": evidence_moved},
     "derivation": {"check": verdict_moved},
     "input": {"check": computed_moved},
 }

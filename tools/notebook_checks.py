@@ -14,6 +14,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
+PURE = ("behaviour", "study_process")
+"""Caches of `loopbook.documents` whose arguments hold all that their results depend on: a loop, a process."""
+
 
 def run(notebook: Path) -> dict[str, Any]:
     """The records of a notebook's checks, and the error that ended it."""
@@ -49,8 +52,8 @@ def forget() -> None:
     """Empty every cache that may hold something of the printed data."""
     for name, module in list(sys.modules.items()):
         if name.startswith("loopbook.documents"):
-            for value in list(vars(module).values()):
-                if hasattr(value, "cache_clear"):
+            for attribute, value in list(vars(module).items()):
+                if hasattr(value, "cache_clear") and attribute not in PURE:
                     value.cache_clear()
 
 

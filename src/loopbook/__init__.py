@@ -23,6 +23,7 @@ TABLE = {
     "DelayedSum": "loopbook.process.transfer_function:DelayedSum",
     "SampledProcess": "loopbook.process.sampled:SampledProcess",
     "tf": "loopbook.process.construct:tf",
+    "process_of": "loopbook.process.from_symbols:process_of",
     "sample": "loopbook.process.sampled:sample",
     "c2d": "loopbook.process.sampled:sample",
     "to_control": "loopbook.controllers.interop:to_control",
@@ -61,6 +62,9 @@ TABLE = {
     "identify": "loopbook.identification.arrays:identify",
     # what an answer in words is
     "LoopbookError": "derivations.errors:LoopbookError",
+    # what a chapter draws
+    "curves": "loopbook.plots.curves:curves",
+    "stairs": "loopbook.plots.stairs:stairs",
     # by subject
     "tuning": "loopbook.tuning",
     "experiments": "loopbook.experiments",

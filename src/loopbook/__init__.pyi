@@ -29,8 +29,11 @@ from loopbook.loop.diagrams import margins as margins
 from loopbook.loop.diagrams import nyquist as nyquist
 from loopbook.loop.sampled import SampledLoop as SampledLoop
 from loopbook.loop.step_info import step_info as step_info
+from loopbook.plots.curves import curves as curves
+from loopbook.plots.stairs import stairs as stairs
 from loopbook.pole_placement.place import place as place
 from loopbook.process.construct import tf as tf
+from loopbook.process.from_symbols import process_of as process_of
 from loopbook.process.sampled import SampledProcess as SampledProcess
 from loopbook.process.sampled import sample as c2d
 from loopbook.process.sampled import sample as sample
@@ -69,6 +72,7 @@ __all__ = [
     "bode",
     "c2d",
     "compare",
+    "curves",
     "design",
     "documents",
     "experiments",
@@ -78,9 +82,11 @@ __all__ = [
     "nyquist",
     "place",
     "plots",
+    "process_of",
     "read_csv",
     "sample",
     "simulate",
+    "stairs",
     "step_info",
     "tf",
     "to_control",

@@ -52,7 +52,8 @@ class Table:
     columns: head cells, inline text. rows: one sequence of inline texts per row (numbers are formatted by `number`).
     align: one of left, right, center per column; default left for the first column and right for the others.
     marks: per row "", "good", "note" or "bad"; colours the row's last cell. groups: so many of the first columns show a
-    text only where it changes, and on paper again at the head of a page.
+    text only where it changes, and on paper again at the head of a page. anchors: per row
+    the name that prose links to, as in ``[proof](#name)``, or "".
     Raises ValueError where a row has another length than the head.
     """
 
@@ -64,6 +65,7 @@ class Table:
     marks: Sequence[str] = ()
     extra: dict[str, Any] = field(default_factory=dict)
     groups: int = 0
+    anchors: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         cells = [[c if isinstance(c, str) else number(c) for c in row] for row in self.rows]
@@ -75,6 +77,8 @@ class Table:
             raise ValueError(f"align takes one of {ALIGNMENTS} for each of {len(self.columns)} columns, got {align}")
         if self.marks and len(self.marks) != len(cells):
             raise ValueError(f"marks: {len(self.marks)} given for {len(cells)} rows")
+        if self.anchors and len(self.anchors) != len(cells):
+            raise ValueError(f"anchors: {len(self.anchors)} given for {len(cells)} rows")
         object.__setattr__(self, "rows", cells)
         object.__setattr__(self, "align", align)
 
@@ -87,6 +91,7 @@ class Table:
             "caption": self.caption,
             "notes": list(self.notes),
             "marks": list(self.marks),
+            **({"anchors": list(self.anchors)} if any(self.anchors) else {}),
         }
         return {**data, "groups": self.groups} if self.groups else data
 
@@ -146,17 +151,41 @@ class Equation:
 
 
 def equation(expression: Any, label: str = "", document: str = "") -> Equation:
-    """Show a SymPy expression, an equality or LaTeX text as a displayed equation.
+    """Show a SymPy expression, an equality or LaTeX text as a displayed equation, a list of equalities as a column.
 
     >>> import sympy
     >>> equation(sympy.Symbol("T_f") / 2, "4.8", "pid-report").latex
     '\\\\frac{T_{f}}{2}'
+    >>> equation([sympy.Eq(*sympy.symbols("a b")), sympy.Eq(*sympy.symbols("c d"))]).latex
+    '\\\\begin{aligned}a &= b \\\\\\\\ c &= d\\\\end{aligned}'
     """
     if isinstance(expression, str):
         return Equation(expression, label, document)
     import sympy
 
-    return Equation(sympy.latex(expression), label, document)
+    if not isinstance(expression, list | tuple):
+        return Equation(sympy.latex(expression), label, document)
+    lines = (f"{sympy.latex(law.lhs)} &= {sympy.latex(law.rhs)}" for law in expression)
+    return Equation(r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}", label, document)
+
+
+@dataclass(frozen=True)
+class Prose:
+    """A paragraph in Markdown whose numbers were computed."""
+
+    text: str
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
+        return {"text/markdown": self.text, "text/plain": self.text}
+
+
+def prose(text: str) -> Prose:
+    """Show a paragraph in Markdown, its numbers computed; a cell tagged ``remove-input`` is prose on the page.
+
+    >>> prose(f"The power for one kelvin is {number(8360.0)} W.").text
+    'The power for one kelvin is 8360 W.'
+    """
+    return Prose(text)
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,9 @@
 import ast
 import builtins
 from collections import defaultdict
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-
-import pytest
 
 SOURCE = Path(__file__).parents[2] / "src"
 MODULES = sorted(SOURCE.rglob("*.py"))
@@ -44,23 +43,35 @@ def shown(path: Path) -> str:
 DERIVATIONS = [p for p in MODULES if shown(p).startswith("derivations/")]
 
 
-@pytest.mark.parametrize("path", DERIVATIONS, ids=shown)
-def test_derivations_are_exact(path):
-    nodes = list(ast.walk(syntax(path)))
-    spelling = {n.value for n in nodes if isinstance(n, ast.keyword) and n.arg == "cutoff"}  # for "did you mean"
-    constants = [n for n in nodes if isinstance(n, ast.Constant) and n not in spelling]
-    floats = [f"line {n.lineno}: {n.value}" for n in constants if isinstance(n.value, float | complex)]
-    assert not floats, "write Rational(...)"
+def none_in(paths: list[Path], wrong: Callable[[Path], list[str]]) -> None:
+    """Fails with everything that is wrong, by module."""
+    found = {shown(path): said for path in paths if (said := wrong(path))}
+    assert found == {}
 
 
-@pytest.mark.parametrize("path", MODULES, ids=shown)
-def test_a_module_holds_one_idea_and_says_which(path):
-    lines = len(path.read_text(encoding="utf-8").splitlines())
-    assert lines <= LINES or shown(path) in LONG, f"{lines} lines; more than {LINES} need a reason in LONG"
-    assert path.name not in ("utils.py", "helpers.py", "common.py", "misc.py")
-    if lines:
-        first = ast.get_docstring(syntax(path))
-        assert first and first.splitlines()[0].strip(), "a module opens with a line that says what it holds"
+def test_derivations_are_exact():
+    def floats(path: Path) -> list[str]:
+        nodes = list(ast.walk(syntax(path)))
+        spelling = {n.value for n in nodes if isinstance(n, ast.keyword) and n.arg == "cutoff"}  # for "did you mean"
+        constants = [n for n in nodes if isinstance(n, ast.Constant) and n not in spelling]
+        inexact = [n for n in constants if isinstance(n.value, float | complex)]
+        return [f"line {n.lineno}: {n.value}: write Rational(...)" for n in inexact]
+
+    none_in(DERIVATIONS, floats)
+
+
+def test_a_module_holds_one_idea_and_says_which():
+    def wrong(path: Path) -> list[str]:
+        lines = len(path.read_text(encoding="utf-8").splitlines())
+        first = (ast.get_docstring(syntax(path)) or "").partition("\n")[0].strip()
+        long = lines > LINES and shown(path) not in LONG
+        return [
+            *([f"{lines} lines; more than {LINES} need a reason in LONG"] if long else []),
+            *(["a name that says nothing"] if path.name in ("utils.py", "helpers.py", "common.py", "misc.py") else []),
+            *(["a module opens with a line that says what it holds"] if lines and not first else []),
+        ]
+
+    none_in(MODULES, wrong)
 
 
 def test_no_reason_outlives_its_module():
@@ -70,9 +81,12 @@ def test_no_reason_outlives_its_module():
 BASES = {"derivations": "LoopbookError", "loopbook": "LoopbookError", "notebook_reports": "PressError"}
 
 
-@pytest.mark.parametrize("path", MODULES, ids=shown)
-def test_every_error_of_ours_is_one_of_ours(path):
+def test_every_error_of_ours_is_one_of_ours():
     """An error is a LoopbookError or a PressError, whatever built-in it is besides, or derives from one that is."""
+    none_in(MODULES, errors_of_others)
+
+
+def errors_of_others(path: Path) -> list[str]:
     wrong = []
     for node in ast.walk(syntax(path)):
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_") and not node.name.endswith("Warning"):
@@ -82,7 +96,7 @@ def test_every_error_of_ours_is_one_of_ours(path):
             base = BASES[shown(path).split("/")[0]]
             if raised and node.name != base and base not in bases:
                 wrong.append(node.name)
-    assert not wrong
+    return wrong
 
 
 def test_no_two_public_classes_have_one_name():
@@ -122,9 +136,12 @@ def test_a_name_says_what_is_run_or_computed():
         assert not found or shown(path) == "derivations/algebra/delay_polynomials.py", f"{shown(path)}: {found}"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=shown)
-def test_what_comes_as_text_is_never_run(path):
+def test_what_comes_as_text_is_never_run():
     """No eval, no SymPy parser; exec only of what a derivation printed. sympify takes no text: strict=True."""
+    none_in(MODULES, what_is_run)
+
+
+def what_is_run(path: Path) -> list[str]:
     wrong = []
     for node in ast.walk(syntax(path)):
         if isinstance(node, ast.Call):
@@ -136,4 +153,4 @@ def test_what_comes_as_text_is_never_run(path):
                 called == "eval" or (called == "exec" and shown(path) not in RUNS_CODE)
             ):
                 wrong.append(f"line {node.lineno}: {called}")
-    assert not wrong
+    return wrong

@@ -14,6 +14,8 @@ from notebook_reports.build.work import Outcome
 from notebook_reports.ledger import files as ledger_files
 from notebook_reports.ledger.row import from_columns
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.fixture
 def loopbook(bench):

@@ -25,7 +25,9 @@ def shown(content):
     return [{kind: data[kind] for kind in kinds if kind in data} for data in outputs]
 
 
-@pytest.mark.parametrize("name", ["double_tank/01_model", "pid_article/03_step_response_tuning"])
+@pytest.mark.parametrize(
+    "name", ["double_tank/01_model", pytest.param("pid_article/03_step_response_tuning", marks=pytest.mark.whole)]
+)
 def test_the_same_tables_and_verdicts(outcome, name, monkeypatch):
     source = read_source(PROJECT.notebooks_folder / f"{name}.ipynb")
     report = json.loads((PROJECT.cache / "executed" / f"{name}.ipynb").read_text(encoding="utf-8"))

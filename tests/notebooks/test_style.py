@@ -13,7 +13,7 @@ from notebook_reports.project.parameters import ParameterError, read_parameters
 from notebook_reports.project.source import Source, read_source
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
-NOTEBOOKS = sorted(p for p in FOLDER.rglob("*.ipynb") if ".ipynb_checkpoints" not in p.parts)
+NOTEBOOKS = sorted(p for p in FOLDER.rglob("*.ipynb") if not {".ipynb_checkpoints", "exercises"} & set(p.parts))
 LINES_OF_A_CELL = 12
 LINES_OF_A_FUNCTION = 5
 WORDS_PER_LINE = 5
@@ -96,8 +96,12 @@ def short_cells(source):
 
 @rule
 def prose_between(source):
-    words = sum(len(c.text.split()) for c in source.cells if c.kind == "markdown")
-    lines = sum(len(written(c.text)) for c in code(source)[1:])
+    """What is folded away is not read in a row; a cell that only says a sentence is prose."""
+    folded = next((c.number for c in source.cells if "folded" in c.tags), len(source.cells) + 1)
+    read = [c for c in source.cells if c.number < folded]
+    said = [c for c in read if c.kind == "markdown" or "remove-input" in c.tags]
+    words = sum(len(c.text.split()) for c in said)
+    lines = sum(len(written(c.text)) for c in [c for c in read if c.runs][1:] if c not in said)
     if lines and words / lines < WORDS_PER_LINE:
         yield f"{words / lines:.1f} words of prose per line of code; at least {WORDS_PER_LINE}"
 

@@ -92,6 +92,7 @@ def test_no_folder_of_tests_is_left_out(request):
     assert [f for f in folders for name in f.parts if any(fnmatch(name, pattern) for pattern in left_out)] == []
 
 
+@pytest.mark.long
 def test_the_mutants_find_what_to_alter():
     values, constants = list(mutants.value_mutants(ROOT)), list(mutants.derivation_mutants(ROOT))
     assert {m.what.split(",")[0] for m in values} == {"double-tank", "pid-article", "pid-report"}

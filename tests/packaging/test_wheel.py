@@ -17,6 +17,8 @@ from packaging.requirements import Requirement
 
 from loopbook.process.transfer_function import Process
 
+pytestmark = pytest.mark.builds
+
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 SOURCES = ("src", "pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE")

@@ -106,6 +106,27 @@ class PolePlacement:
         return polynomial([sp.expand(c) for c in coefficients(self.fixed * self.C_prime_form, "C", self.z)], self.z)
 
     @cached_property
+    def law(self) -> sp.Eq:
+        """A S C' + B D = P multiplied out, with the unknowns as symbols, by powers of z^-1."""
+        left = self.A * self.fixed * self.C_prime_form + self.B * self.D_form
+        sides = ([sp.expand(c) for c in coefficients(side, z=self.z)] for side in (left, self.P))
+        return sp.Eq(*(polynomial(side, self.z) for side in sides), evaluate=False)
+
+    @cached_property
+    def equations(self) -> list[sp.Eq]:
+        """The system, a row for each of z^-1, z^-2, ..., as the coefficients of `law` are compared.
+
+        >>> a, b, q = sp.symbols("a b q")
+        >>> place(1 + a / Z, b / Z, 1 - q / Z, fixed=integrators(1)).equations
+        [Eq(a + b*d_0 - 1, -q), Eq(-a + b*d_1, 0)]
+        """
+        left, right = (
+            [sp.expand(c) for c in coefficients(side, z=self.z)] for side in (self.law.lhs, sp.expand(self.law.rhs))
+        )
+        right += [sp.S.Zero] * (len(left) - len(right))
+        return [sp.Eq(x, y, evaluate=False) for x, y in zip(left[1:], right[1:], strict=True)]
+
+    @cached_property
     def C_prime(self) -> sp.Expr:
         """C' in the symbols of the problem."""
         return self.C_prime_form.xreplace(self.solution)

@@ -18,7 +18,7 @@ from sympy.simplify.fu import TR10i
 from derivations.algebra.rational import solved_for, vanishes
 
 s = sp.Symbol("s")
-w, k = sp.symbols("w k", positive=True)
+w, k = sp.symbols("omega k", positive=True)
 f, b, a = sp.symbols("f b a", positive=True)
 phase, margin = sp.symbols("phi_p phi_m", real=True)
 
@@ -51,7 +51,7 @@ def parallel() -> dict[str, sp.Expr]:
         N = -pole,   I = lim s C (s to 0),   -D N^2 = residue at the pole,   P N + I = coefficient of s in (s + N) s C
 
     >>> parallel()["N"]
-    w/tan(a)
+    omega/tan(a)
     """
     N = w / sp.tan(a)
     with_pole = k * factor(f) * factor(b) / sp.sin(a)  # (s + N) s C

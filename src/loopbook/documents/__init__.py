@@ -10,4 +10,5 @@
 from loopbook.lazy import attach
 
 TABLE = {name: f"loopbook.documents.open:{name}" for name in ("glossary", "names", "open_document", "printed")}
+TABLE["drawing"] = "loopbook.documents.drawings:drawing"
 __getattr__, __dir__, __all__ = attach(__name__, TABLE)

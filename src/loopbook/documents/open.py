@@ -4,6 +4,7 @@
 Fraction(7327, 2000)
 """
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -39,13 +40,17 @@ def printed(id: str) -> PrintedDocument:
     return load(id, FOLDER)
 
 
-def open_document(id: str, compare: bool = True) -> Document:
+def open_document(id: str, compare: bool = True, given: Mapping[str, float] | None = None) -> Document:
     """A document, ready to be checked; misprints are proved by multiplying out.
 
-    compare: False where the notebook's parameters are not the document's own: tables then give no verdict.
+    compare: False where the notebook's parameters are not the document's own: tables then give no verdict. given: the
+    parameters by the id of the printed number that each one is, so that this is found out.
     Raises PrintedDataError for a name that no document has.
+
+    >>> [open_document("double-tank", given={"V1": volume}).compare for volume in (10.0, 9.0)]
+    [True, False]
     """
-    return Document(printed(id), compare, _same)
+    return Document(printed(id), compare, _same, given)
 
 
 def _same(one: Any, other: Any) -> bool:

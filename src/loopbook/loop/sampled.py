@@ -17,6 +17,7 @@ from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.process.near_one import zeros_near_one
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
@@ -112,8 +113,7 @@ class SampledLoop:
     def on_circle(self) -> CircleTransfer:
         """The loop transfer at z = exp(j angle)."""
         n, d = self.transfer
-        B, _ = self.sampled.polynomials
-        zeros = np.concatenate([zeros_of(self.regulator.S), zeros_of(B)])
+        zeros = np.concatenate([zeros_of(self.regulator.S), zeros_near_one(self.sampled)])
         poles = np.concatenate([zeros_of(self.regulator.R), np.exp(self.process.poles * self.regulator.h)])
         return CircleTransfer(n, d, zeros, poles)
 

@@ -25,6 +25,7 @@ from numpy.polynomial import chebyshev
 
 from loopbook.controllers.rst import Rst, zeros_of
 from loopbook.loop.transfer import LoopError
+from loopbook.process.near_one import numerator_near_one
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
 
@@ -50,11 +51,10 @@ class _Numerator:
     @classmethod
     def of(cls, process: Process, h: float) -> "_Numerator":
         whole = sample(process.rational, h)
-        A = whole.polynomials[1]
         for count in (12, 24, 48, 96, 192, 384):
             x = chebyshev.chebpts1(count)
-            rows = np.array([replace(whole, tau=(v + 1) / 2 * h).numerator_of_fraction(A) for v in x])
-            series = chebyshev.chebfit(x, rows @ _to_powers_of_v(rows.shape[1]), count - 1)
+            rows = np.array([numerator_near_one(replace(whole, tau=(v + 1) / 2 * h)) for v in x])
+            series = chebyshev.chebfit(x, rows[:, ::-1] @ _to_powers_of_v(rows.shape[1]), count - 1)
             if np.abs(series[-3:]).max() <= RESOLVED * np.abs(series).max():
                 break
         return cls(np.where(np.abs(series) > ROUNDING * np.abs(series).max(), series, 0.0))
@@ -64,11 +64,10 @@ class _Numerator:
         """B from a dead time of whole samples (0) to one that is longer by nothing (1), where a process that acts at
         once does so one sample later.
         """
-        B, A = sample(process.rational, h).polynomials
-        powers = _to_powers_of_v(len(A) + 1)
-        before, acts = (np.append(p, 0.0) @ powers for p in (B, B[0] * A))
-        half = np.append(0.0, acts[:-1]) / 2  # times v = 1 - z^-1
-        return cls(np.array([before - half, -half]))
+        before = numerator_near_one(sample(process.rational, h))
+        acts = before[0] * np.append(np.real(np.poly(np.expm1(process.poles * h))), 0.0)
+        before, acts = (p[::-1] @ _to_powers_of_v(len(p)) for p in (before, acts))
+        return cls(np.array([before - acts / 2, -acts / 2]))
 
     @cached_property
     def slopes(self) -> np.ndarray:
@@ -96,8 +95,11 @@ class _Numerator:
 
 
 def _to_powers_of_v(count: int) -> np.ndarray:
-    """(1 - v)^i = sum of C(i, m) (-v)^m as a matrix, rows i, columns m."""
-    return np.array([[math.comb(i, m) * (-1) ** m for m in range(count)] for i in range(count)], dtype=float)
+    """(z - 1)^k z^-(count - 1) = v^k (1 - v)^(count - 1 - k) as a matrix: rows k, columns powers of v = 1 - z^-1."""
+    rows = np.zeros((count, count))
+    for k in range(count):
+        rows[k, k:] = [math.comb(count - 1 - k, m) * (-1) ** m for m in range(count - k)]
+    return rows
 
 
 class _Circle:

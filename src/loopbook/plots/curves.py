@@ -25,6 +25,10 @@ def curves(
     levels: horizontal guides in the first panel. instants: vertical guides in every panel. height: inch; default 3
     for one panel, 4.4 for more. A name that starts with "_" is drawn without a legend entry; a name that starts with
     "o " is drawn as points. Panels share the x axis. Raises ValueError without panels.
+
+    >>> fig = curves({"output $y$ [K]": {"rise": ([0, 1], [0, 1])}}, "A title")
+    >>> fig.axes[0].get_ylabel()
+    'output $y$ [K]'
     """
     import matplotlib.pyplot as plt
 

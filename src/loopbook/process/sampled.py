@@ -77,13 +77,26 @@ class SampledProcess:
     @cached_property
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
         """(B, A) with y = B/A u, coefficients of z^0, z^-1, ...; A starts with 1, B with the zeros of the delay."""
-        A, n = np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h)))), self.process.order
-        B = _numerator(A, self._markov)[: n + (2 if self.tau else 1)]
-        if n >= MANY:
-            added = _numerator(abs(A), abs(self._markov))[: len(B)]
-            if (abs(B) * LOST < added).any():
-                B, A = exact_polynomials(self.process, self.h, self.tau)
+        if self.exact is not None:
+            B, A, _ = self.exact
+        else:
+            A = self._denominator
+            B = _numerator(A, self._markov)[: len(A) + bool(self.tau)]
         return np.concatenate([np.zeros(self.whole), B]), A
+
+    @cached_property
+    def _denominator(self) -> np.ndarray:
+        return np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h))))
+
+    @cached_property
+    def exact(self) -> "tuple[np.ndarray, np.ndarray, np.ndarray] | None":
+        """`exact_polynomials`, where B's coefficients would cancel nearly all digits of what they are made of."""
+        if self.process.order < MANY:
+            return None
+        B = _numerator(self._denominator, self._markov)[: self.process.order + (2 if self.tau else 1)]
+        added = _numerator(abs(self._denominator), abs(self._markov))[: len(B)]
+        cancel = (abs(B) * LOST < added).any()
+        return exact_polynomials(self.process, self.h, self.tau) if cancel else None
 
     @cached_property
     def _markov(self) -> np.ndarray:
@@ -96,10 +109,6 @@ class SampledProcess:
                 state = Phi @ state
         rows[1 if self.tau else 0, 0] = self.plant.D[0, 0]
         return rows
-
-    def numerator_of_fraction(self, A: np.ndarray) -> np.ndarray:
-        """B in double precision for the dead time's fraction alone, always with the n + 2 places of a fraction."""
-        return _numerator(A, self._markov)
 
     @property
     def num(self) -> np.ndarray:
@@ -151,8 +160,9 @@ def _numerator(A: np.ndarray, markov: np.ndarray) -> np.ndarray:
     return B
 
 
-def exact_polynomials(process: Process, h: float, tau: float) -> tuple[np.ndarray, np.ndarray]:
-    """(B, A) as `SampledProcess.polynomials`, without whole samples of dead time, correctly rounded.
+def exact_polynomials(process: Process, h: float, tau: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(B, A) as `SampledProcess.polynomials`, without whole samples of dead time, and z^(n + 1) B in powers of z - 1
+    from (z - 1)^(n + 1) down, all correctly rounded.
 
     In fixed-point numbers with so many places that nothing is lost where the coefficients of many lags, sampled fast,
     cancel nearly all of each other. tau: the fraction of a sample [s] that the dead time has.
@@ -189,8 +199,11 @@ def exact_polynomials(process: Process, h: float, tau: float) -> tuple[np.ndarra
         for i in range(n + 1):
             for j in range(n + 1 - i):
                 B[i + j + shift] += A[i] * row[j]
-    numerator = np.array([float(Fraction(x, 4**numbers.bits) * (input_size or 1)) for x in B])
-    return numerator if tau else numerator[: n + 1], numbers.floats(np.array(A, dtype=object))
+    powers = [sum(B[i] * math.comb(n + 1 - i, k) for i in range(n + 2 - k)) for k in range(n + 1, -1, -1)]
+    numerator, near_one = (
+        np.array([float(Fraction(x, 4**numbers.bits) * (input_size or 1)) for x in row]) for row in (B, powers)
+    )
+    return numerator if tau else numerator[: n + 1], numbers.floats(np.array(A, dtype=object)), near_one
 
 
 def _pace(process: Process, h: float) -> int:

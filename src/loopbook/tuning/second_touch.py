@@ -8,7 +8,7 @@ first one: its smallest value is zero. The quotient is formed by divided differe
 
     (|C + L|^2 - R^2)/(x - w)^2 = |L'(w) + L[w, w, x] d|^2 - 2 Re(conj(C + L(w)) L[w, w, x])
 
-so that no digit is lost where x comes close to w.
+so that no digit is lost where x comes close to w; far from w it is what it says.
 """
 
 from collections.abc import Sequence
@@ -22,20 +22,22 @@ from loopbook.tuning.migo_branch import circle, smooth_branch
 WIDTH = 1.1
 TURN = 1.0  # what a search window may hold of the dead time's phase, in rad
 ZOOMS, MOST = 5, 40
-SMALL = 0.3
+SMALL, NEAR = 0.3, 0.5
 
 
 def room_beside(process: Process, w: float, x: np.ndarray, M: float) -> np.ndarray:
     """w^2 (|C + L|^2 - R^2)/(x - w)^2 at the frequencies x [rad/s], for the settings that touch at w."""
     k, ki, kd = smooth_branch(process, np.array(w), M).tolist()
-    C, _ = circle(M)
+    C, R = circle(M)
     at, s = 1j * w, 1j * np.asarray(x, dtype=float)
     d = s - at
     above = _differences(np.convolve(process.num, [kd, k, ki]), at, s)
     below = _reciprocal(_differences((*process.den, 0.0), at, s))
     loop = _product(_product(above, below), _delay(process.delay, at, d))
-    (here, slope), (_, _, second) = loop[:2], loop[2:]
-    return w**2 * (abs(slope + second * d) ** 2 - 2 * (np.conj(C + here) * second).real)
+    here, slope, there, _, second = loop
+    beside = abs(slope + second * d) ** 2 - 2 * (np.conj(C + here) * second).real
+    far = (abs(C + there) ** 2 - R**2) / np.maximum(abs(d), NEAR * w) ** 2
+    return w**2 * np.where(abs(d) < NEAR * w, beside, far)
 
 
 def least_room(process: Process, w: float, near: float, M: float) -> tuple[float, float]:

@@ -23,7 +23,7 @@ from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.read.notebook import level_headings, number_blocks, read
 from notebook_reports.export.write.arrangement import Arrangement
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
-from notebook_reports.export.write.typst_engine import TypstFailed, compile_settled, too_wide_table
+from notebook_reports.export.write.typst_engine import CHAPTER, TypstFailed, compile_settled, too_wide_table
 from notebook_reports.export.write.typst_text import typst_string
 
 __all__ = ["Chapter", "LinkedTable", "Page", "export_book"]
@@ -177,7 +177,7 @@ def _source(
     for entry in bound:
         report = entry.report
         writer = TypstWriter(report.name, f"{report.name}#", anchors, layout)
-        pieces.append(f"// chapter {report.name}\n// cell 0")
+        pieces.append(f"{CHAPTER}{report.name}\n// cell 0")
         if entry.part:
             roman += 1
             number = _roman(roman) if entry.number.isdigit() else ""
@@ -201,7 +201,7 @@ def _of_chapter(error: TypstFailed) -> ExportError:
             name = table.rsplit(" ", 2)[0]
         elif diagnostic.line is not None:
             above = error.source.split("\n")[: diagnostic.line]
-            name = next((line[11:] for line in reversed(above) if line.startswith("// chapter ")), name)
+            name = next((line[len(CHAPTER) :] for line in reversed(above) if line.startswith(CHAPTER)), name)
         break
     return as_export_error(error, name)
 

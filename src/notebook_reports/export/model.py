@@ -215,6 +215,13 @@ class Folded:
 
 
 @dataclass
+class Aside:
+    """A note in the margin, of one line or two."""
+
+    blocks: list["Block"]
+
+
+@dataclass
 class ThematicBreak:
     """A thematic break."""
 
@@ -285,6 +292,7 @@ Block = (
     | Quote
     | Alert
     | Folded
+    | Aside
     | ThematicBreak
     | Grid
     | FigureBlock
@@ -297,13 +305,14 @@ Block = (
 class ReportCell:
     """The blocks of one cell. number: its 1-based position in the notebook. anchor: "cell-7" for a code cell.
 
-    new_page: a page begins with it.
+    new_page: a page begins with it. folded: on a screen, the section that begins with it opens when asked.
     """
 
     number: int
     blocks: list[Block]
     anchor: str = ""
     new_page: bool = False
+    folded: bool = False
 
 
 @dataclass
@@ -347,7 +356,7 @@ def children(node: Any) -> list[Any]:
     match node:
         case list():
             return node
-        case ReportCell() | Quote() | Alert() | Folded() | ListItem() | Note():
+        case ReportCell() | Quote() | Alert() | Folded() | Aside() | ListItem() | Note():
             return node.blocks
         case Paragraph() | Heading() | Styled() | Coloured() | Link() | Cell():
             return node.children

@@ -58,7 +58,8 @@ def notebook_words(notebook: Any) -> list[tuple[int, list[str]]]:
     """The words of each cell, its number with them."""
     found = []
     for number, cell in enumerate(notebook["cells"], start=1):
-        source = "".join(cell.get("source") or "")
+        hidden = {"remove-input", "hide-input"} & set(cell.get("metadata", {}).get("tags", ()))
+        source = "" if hidden else "".join(cell.get("source") or "")
         text = _of_markdown(source) if cell["cell_type"] == "markdown" else source
         outputs = [_of_output(output) for output in cell.get("outputs") or ()]
         found.append((number, words_of("\n".join([text, *outputs]))))

@@ -26,6 +26,7 @@ A misprint is *proved* (by a derivation, a dimension, a run of the printed progr
 """
 
 import difflib
+import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -95,13 +96,21 @@ class Document:
 
     printed: what `printed_data.load` read. same: are two SymPy expressions the same mathematics? Proves misprints.
     compare: False where the notebook's parameters are not the document's own. Tables then show what was computed,
-    without a verdict, and leave no record.
+    without a verdict, and leave no record. given: the notebook's parameters by the id of the printed number that each
+    one is; one that differs makes ``compare`` False. Raises LedgerError for an id that is not printed.
     """
 
-    def __init__(self, printed: printed_data.PrintedDocument, compare: bool = True, same: Same = _identical):
+    def __init__(
+        self,
+        printed: printed_data.PrintedDocument,
+        compare: bool = True,
+        same: Same = _identical,
+        given: Mapping[str, float] | None = None,
+    ):
         self.printed = printed
         self.id = printed.id
-        self.compare = compare
+        agree = (math.isclose(float(self.value(id)), x, rel_tol=1e-9) for id, x in (given or {}).items())
+        self.compare = compare and all(agree)
         self._same = same
         self._records: list[LedgerRow] = []
 
@@ -205,7 +214,8 @@ class Document:
             caption = caption or f"{where(places)}: computed with other parameters than the document's"
             heads, records, marks = heads[:3], [], []
         caption = caption or captions.caption("claim", places, [r.verdict for r in records], CLAIM_VERDICTS)
-        return self._checked(_placed(heads, rows, caption, marks), records)
+        anchors = [f"claim-{id}" for id in tested]
+        return self._checked(_placed(heads, rows, caption, marks, anchors), records)
 
     def misprint(self, id: str, proof: Any) -> Checked:
         """Record one misprint with its proof; see `misprints`."""
@@ -265,7 +275,8 @@ class Document:
         caption = caption or captions.of_misprints([row[0] for row in rows], [row[4] == "yes" for row in rows])
         if not self.compare:
             records, marks = [], []
-        return self._checked(_placed(heads, rows, caption, marks), records)
+        anchors = [f"misprint-{id}" for id in found]
+        return self._checked(_placed(heads, rows, caption, marks, anchors), records)
 
     def _checked(self, view: Table, records: list[LedgerRow]) -> Checked:
         self._records.extend(records)
@@ -287,12 +298,14 @@ class Document:
         return Table(["entry", "verdict", "number"], rows, f"{self.id}: the checks of this notebook", (), (), marks)
 
 
-def _placed(heads: list[str], rows: list[list[str]], caption: str, marks: Sequence[str]) -> Table:
+def _placed(
+    heads: list[str], rows: list[list[str]], caption: str, marks: Sequence[str], anchors: Sequence[str] = ()
+) -> Table:
     """A table whose first column is the place: each place once, and no column where the caption names the only one."""
     if len({row[0] for row in rows}) == 1 and where([rows[0][0]]) in caption:
         heads, rows = heads[1:], [row[1:] for row in rows]
-        return Table(heads, rows, caption, ["left"] * len(heads), (), marks)
-    return Table(heads, rows, caption, ["left"] * len(heads), (), marks, groups=1)
+        return Table(heads, rows, caption, ["left"] * len(heads), (), marks, anchors=anchors)
+    return Table(heads, rows, caption, ["left"] * len(heads), (), marks, groups=1, anchors=anchors)
 
 
 def _proves(item: printed_data.Misprint, derived: Any, same: Same) -> bool:

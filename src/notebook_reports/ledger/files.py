@@ -96,8 +96,8 @@ def natural(text: str) -> list[tuple[int, int, str]]:
 
 
 def _same(a: str, b: str) -> bool:
-    if a == b:
-        return True
+    if a == b or any(len(x) > 16 and x.lstrip("-").isdigit() for x in (a, b)):  # integers beyond floats are exact
+        return a == b
     try:
         x, y = float(a), float(b)
     except ValueError:

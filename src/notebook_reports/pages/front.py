@@ -22,7 +22,7 @@ LONGEST_OPENING = 330
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownFind:
     """A find as the page shows it, as HTML. mark: of its verdict. url: of the cell that shows it."""
 
     says: str
@@ -31,7 +31,7 @@ class Shown:
     url: str
 
 
-def finds(part: Part, found: Iterable[LedgerRow]) -> list[Shown]:
+def finds(part: Part, found: Iterable[LedgerRow]) -> list[ShownFind]:
     """What a part found. Raises UsageError for an entry that the ledger does not have, or with another verdict."""
     document = part.folder.replace("_", "-")
     rows = {(row.table, row.id): row for row in found if row.document == document}
@@ -44,7 +44,7 @@ def finds(part: Part, found: Iterable[LedgerRow]) -> list[Shown]:
             told = f"{find.table} {find.id!r} of {document} is {row.verdict!r} in the ledger and {find.verdict!r} here"
             raise UsageError(f"notebooks/book.toml: {told}; does the sentence still hold?")
         words = HtmlWriter().inline(read_inline(find.says))
-        shown.append(Shown(words, MARKS[row.verdict], row.verdict, f"{row.notebook}.html#cell-{row.cell}"))
+        shown.append(ShownFind(words, MARKS[row.verdict], row.verdict, f"{row.notebook}.html#cell-{row.cell}"))
     return shown
 
 
@@ -63,7 +63,7 @@ def opening(content: Mapping[str, Any]) -> str:
     return HtmlWriter().inline(read_inline(words[: ends[-1]])) if ends else ""
 
 
-def picture(outline: Outline, content: Mapping[str, Any]) -> str:
+def front_picture(outline: Outline, content: Mapping[str, Any]) -> str:
     """The figure of the front page from the executed notebook that the outline names, as HTML.
 
     Raises UsageError where that has no such figure.

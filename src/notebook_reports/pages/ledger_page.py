@@ -54,7 +54,7 @@ def pages(
     calls each notebook."""
     made = [
         Page(ERRATA, errata_page(medium, found), "errata"),
-        Page(COVERAGE, coverage_page(counts), "coverage"),
+        Page(COVERAGE, coverage_page(medium, counts), "coverage"),
         Page(OPEN, open_page(medium, found), "open"),
         Page(REPRODUCED_PAGE, reproduced_page(medium, found), "reproduced"),
         Page(GLOSSARY, glossary_page(terms), "glossary"),
@@ -78,7 +78,7 @@ def sentences(counts: Sequence[Count]) -> list[str]:
     return lines
 
 
-def coverage_page(counts: Sequence[Count]) -> Content:
+def coverage_page(medium: Medium, counts: Sequence[Count]) -> Content:
     """How many entries each document and each place has, and with which verdicts."""
     if not counts:
         return []
@@ -106,7 +106,10 @@ def coverage_page(counts: Sequence[Count]) -> Content:
         rows.append([f"all {len(here)} places", sums[0], "", sums[1], "", sums[2]])
         heads = ["place", "values", "their verdicts", "statements", "their verdicts", "misprints"]
         align = ["left", "right", "left", "right", "left", "right"]
-        content += [f"## {document.document}", Table(heads, rows, f"{document.document}, place by place", align)]
+        content += [
+            f"## {medium.name(document.document)}",
+            Table(heads, rows, f"{medium.name(document.document)}, place by place", align),
+        ]
     return content
 
 
@@ -158,11 +161,11 @@ def _errata_table(medium: Medium, document: str, group: str, rows: Sequence[Erra
     if group == FALSE:
         columns = ["place", "the document says", "computed", medium.where]
         made = [[plain_words(e.found.place), e.printed, e.note, place_of(e.found)] for e in rows]
-        return medium.table(columns, made, f"{document}: statements that do not hold")
+        return medium.table(columns, made, f"{medium.name(document)}: statements that do not hold")
     columns = ["place", "printed", "correct", "what is wrong", medium.where]
     made = [[plain_words(e.found.place), *_forms(e), e.note, place_of(e.found)] for e in rows]
     caption = {MISLEADS: "errors that mislead", HARMLESS: "slips that mislead nobody"}[group]
-    return medium.table(columns, made, f"{document}: {caption}")
+    return medium.table(columns, made, f"{medium.name(document)}: {caption}")
 
 
 def _forms(wrong: Erratum) -> tuple[str, str]:
@@ -188,17 +191,17 @@ def open_page(medium: Medium, found: Sequence[LedgerRow]) -> Content:
     values = [r for r in _sorted(chosen) if r.table == "value"]
     if values:
         columns = ["place", "quantity", "printed", "exact", "why", medium.where, "verdict"]
-        rows = [[_place(r), *_value(r)[:3], r.fields["reason"], place_of(r), r.verdict] for r in values]
+        rows = [[_place(medium, r), *_value(r)[:3], r.fields["reason"], place_of(r), r.verdict] for r in values]
         content += ["## Values", medium.table(columns, rows, "Values that are not reproduced", (), _marks(values))]
     claims = [r for r in _sorted(chosen) if r.table == "claim"]
     if claims:
         content.append("## Statements")
     for document in dict.fromkeys(r.document for r in claims):
         here = [r for r in claims if r.document == document]
-        content.append(_claims(medium, here, f"{document}: statements that hold in part"))
+        content.append(_claims(medium, here, f"{medium.name(document)}: statements that hold in part"))
     failed = [r for r in chosen if r.table == "misprint"]
     if failed:
-        rows = [[_place(r), as_code(r.fields["printed"]), place_of(r), r.verdict] for r in failed]
+        rows = [[_place(medium, r), as_code(r.fields["printed"]), place_of(r), r.verdict] for r in failed]
         columns = ["place", "printed", medium.where, "verdict"]
         content.append(medium.table(columns, rows, "Misprints that are not confirmed", (), _marks(failed)))
     return content
@@ -216,7 +219,7 @@ def reproduced_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
         )
     for document in dict.fromkeys(r.document for r in _sorted(good)):
         here = [r for r in _sorted(good) if r.document == document]
-        content.append(f"## {document}")
+        content.append(f"## {medium.name(document)}")
         values = [r for r in here if r.table == "value"]
         if values:
             columns = [
@@ -231,10 +234,10 @@ def reproduced_page(medium: Medium, found: Iterable[LedgerRow]) -> Content:
             ]
             rows = [[plain_words(r.place), *_value(r), place_of(r), r.verdict] for r in values]
             align = ["left", "left", *["right"] * 4, "right" if medium.paper else "left", "left"]
-            content.append(medium.table(columns, rows, f"{document}: values", align, _marks(values)))
+            content.append(medium.table(columns, rows, f"{medium.name(document)}: values", align, _marks(values)))
         claims = [r for r in here if r.table == "claim"]
         if claims:
-            content.append(_claims(medium, claims, f"{document}: statements that hold"))
+            content.append(_claims(medium, claims, f"{medium.name(document)}: statements that hold"))
     return content
 
 
@@ -251,8 +254,8 @@ def _value(found: LedgerRow) -> tuple[str, str, str, str, str]:
     return fields["quantity"], f"{short(digits)} {fields['unit']}".strip(), exact, from_inputs, quoted or first
 
 
-def _place(found: LedgerRow) -> str:
-    return f"{found.document}, {plain_words(found.place)}"
+def _place(medium: Medium, found: LedgerRow) -> str:
+    return f"{medium.name(found.document)}, {plain_words(found.place)}"
 
 
 def _marks(found: Iterable[LedgerRow]) -> list[str]:
@@ -292,7 +295,10 @@ def index_page(medium: Medium, found: Iterable[LedgerRow], chapters: Mapping[str
             rows.append([plain_words(r.place), chapter, *_section(medium, r), place_of(r)])
         columns = ["place", "chapter", *(["section"] if medium.paper else []), medium.where]
         align = ["left", "left", "left", "right"] if medium.paper else ["left"] * 3
-        content += [f"## {document}", medium.table(columns, rows, f"{document}: places", align)]
+        content += [
+            f"## {medium.name(document)}",
+            medium.table(columns, rows, f"{medium.name(document)}: places", align),
+        ]
     return content
 
 

@@ -1,8 +1,8 @@
 """The same tables for paper and for the screen: paper names the page, the screen links the section."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from notebook_reports import display
@@ -49,9 +49,14 @@ def place_of(found: LedgerRow) -> At:
 
 @dataclass(frozen=True)
 class Medium:
-    """paper: a book with numbered pages; else a page for the screen."""
+    """paper: a book with numbered pages; else a page for the screen. names: what the documents are called, by id."""
 
     paper: bool
+    names: Mapping[str, str] = field(default_factory=dict)
+
+    def name(self, document: str) -> str:
+        """What a document is called; where nothing is said, its id."""
+        return self.names.get(document, document)
 
     @property
     def where(self) -> str:

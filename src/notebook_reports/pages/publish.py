@@ -6,6 +6,7 @@ time is imported when there is something to write.
 
 import platform
 import time
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -122,12 +123,14 @@ def _make(project: Project, code: str) -> tuple[dict[str, bytes], list[Failure]]
     try:
         titles = {entry["id"]: entry["title"] for entry in outline.entries}
         numbered = {id: f"{number}  {title}" for number, (id, title) in enumerate(titles.items(), start=1)}
-        front = [preface(PAPER, counts)]
-        appendix = ledger.pages(PAPER, counts, found, words, numbered)
+        names = {part.folder.replace("_", "-"): part.title for part in outline.parts}
+        paper, on_the_screen = replace(PAPER, names=names), replace(SCREEN, names=names)
+        front = [preface(paper, counts)]
+        appendix = ledger.pages(paper, counts, found, words, numbered)
         built = "Made with " + ", ".join(f"{name} {number}" for name, number in tools.items())
         lines = [*ledger.sentences(counts), ledger.errors(found), built]
         made[BOOK] = volume(project, outline, front, appendix, lines, code or outline.code)
-        on_screen = ledger.pages(SCREEN, counts, found, words, titles)
+        on_screen = ledger.pages(on_the_screen, counts, found, words, titles)
         extra = offered.made(outline.pages, NAMES)
         made |= {page.name: page.text.encode() for page in extra}
         made[LEDGER] = screen.ledger_page(on_screen, outline.title)

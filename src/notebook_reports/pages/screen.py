@@ -18,7 +18,7 @@ from notebook_reports.ledger.files import FILES
 from notebook_reports.ledger.row import TABLES, LedgerRow
 from notebook_reports.ledger.verdicts import MARKS
 from notebook_reports.pages.errata import errata
-from notebook_reports.pages.front import finds, opening, picture
+from notebook_reports.pages.front import finds, front_picture, opening
 from notebook_reports.pages.ledger_page import NAMES
 from notebook_reports.pages.medium import as_sections
 from notebook_reports.pages.offered import OfferedPage
@@ -59,7 +59,7 @@ def index_page(
     told: dict[str, Any] = {
         "outline": outline,
         "style": style_sheet(),
-        "picture": picture(outline, executed[outline.picture[0]]) if outline.picture else "",
+        "picture": front_picture(outline, executed[outline.picture[0]]) if outline.picture else "",
         "finds": {part.folder: finds(part, found) for part in outline.parts},
         "opening": lambda id: opening(executed[id]),
         "whole": headline(counts, found),

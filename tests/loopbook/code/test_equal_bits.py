@@ -3,6 +3,8 @@
 import pytest
 from prove import prove
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.mark.parametrize("compensated", [False, True], ids=["plain sum", "compensated sum"])
 def test_every_language_gives_the_same_bits(compensated, record_property, share):

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from prove import arm, compiled, prove
 
+pytestmark = pytest.mark.builds
+
 
 def differing(title: str, real: str, maker) -> int:
     (row,) = prove(300, 20, chosen=lambda t: False, extra={real: {title: maker}}).rows

@@ -9,6 +9,8 @@ from loopbook.code import controller, regulator_from_json, states_at_rest
 from loopbook.design.study import Study
 from loopbook.process.sampled import sample
 
+pytestmark = pytest.mark.builds
+
 RECORD = Path(__file__).parents[3] / "notebooks" / "own_process" / "example.csv"
 
 

@@ -12,6 +12,8 @@ from derivations.programs.form import Assign, Do, Fill, If, walk
 from loopbook.code import emit, pid_block
 from loopbook.code.languages import languages
 
+pytestmark = pytest.mark.builds
+
 WARNINGS = ["-Wall", "-Wextra", "-pedantic", "-Wconversion", "-Wdouble-promotion", "-Wshadow", "-Werror"]
 NAME = "heater_pid"
 CODESYS = [

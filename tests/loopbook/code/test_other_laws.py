@@ -18,6 +18,8 @@ from loopbook.controllers import OnOff
 from loopbook.controllers.rst import Rst
 from loopbook.controllers.settings import PidSettings
 
+pytestmark = pytest.mark.builds
+
 PID = PidSettings(K=1.3, Ti=7.0, Td=0.9, Tf=0.2, b=0.6, c=0.3, h=0.5, u_low=-20.0, u_high=25.0, rate=30.0)
 ZONES = [{"K": 1.3, "Ti": 7.0, "Td": 0.9}, {"K": 2.1, "Ti": 4.0, "Td": 0.0}, {"K": 0.7, "Ti": None, "Td": 0.4}]
 BLOCKS = {

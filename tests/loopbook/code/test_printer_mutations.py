@@ -13,6 +13,8 @@ from derivations.programs import frozen
 from derivations.programs.form import Assign, If
 from loopbook.code.languages import c, javascript, python, structured_text
 
+pytestmark = pytest.mark.builds
+
 C, ST, JS, PY = "C double, gcc -O0", "Structured Text, REAL", "JavaScript, V8", "Python, emitted"
 CLASSES = {
     C: (c.CArithmetic, c.CWriter),

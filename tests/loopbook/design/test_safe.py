@@ -13,6 +13,8 @@ from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
 from tools import example_record as example
 
+pytestmark = pytest.mark.long
+
 OWN = Path(__file__).parent / "own_process"
 
 

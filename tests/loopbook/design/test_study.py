@@ -17,6 +17,8 @@ from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
 from tools import example_record as example
 
+pytestmark = pytest.mark.long
+
 HEATED = Process.fopdt(0.68, 150.0, 18.0)
 
 

@@ -10,6 +10,8 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
 from loopbook.process.transfer_function import Process
 
+pytestmark = pytest.mark.long
+
 SERVO = Process([2], [1, 3, 2, 0])
 
 
@@ -64,7 +66,7 @@ def test_any_unit_of_time(unit):
     )
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.seeds(12, 60)
 def test_random_loops_against_their_poles_on_a_fine_grid_of_dead_times(seed):
     """Unstable, oscillating, integrating processes, any fraction of dead time, regulators with a zero and a pole."""
     rng = np.random.default_rng(seed)
@@ -129,7 +131,7 @@ def test_all_margins_of_a_fast_sampled_pi_tend_to_the_continuous_ones(process, h
     assert found.delay == pytest.approx(limit.delay, rel=h)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_a_process_that_acts_at_once_jumps_with_the_whole_samples(seed):
     """The loop may turn unstable where a dead time of whole samples grows by nothing: no root passes the circle."""
     rng = np.random.default_rng(seed)
@@ -143,13 +145,13 @@ def test_a_process_that_acts_at_once_jumps_with_the_whole_samples(seed):
     if not loop.is_stable:
         return
     margin = loop.margins().delay
-    just_after = np.arange(40) * 0.1 - process.delay % 0.1 + 1e-7
-    tried = np.concatenate([np.arange(0, 4, 0.01), just_after[just_after > 0]])
+    just_after = np.arange(16) * 0.1 - process.delay % 0.1 + 1e-7
+    tried = np.concatenate([np.arange(0, 1.5, 0.05), just_after[just_after > 0]])
     unstable = [more for more in tried if not loop.with_delay(more).is_stable]
     if unstable:
-        assert min(unstable) - 0.0101 < margin <= min(unstable) + 1e-9
+        assert min(unstable) - 0.0501 < margin <= min(unstable) + 1e-9
     else:
-        assert margin > tried.max() - 0.0101
+        assert margin > tried.max() - 0.0501
 
 
 def test_the_jump_by_value():

@@ -8,6 +8,8 @@ from loopbook.loop.ultimate_point import ultimate
 from loopbook.process.frequency_response import response
 from loopbook.process.transfer_function import Process
 
+pytestmark = pytest.mark.long
+
 
 def mikhailov(process, K):
     """Roots on the right of d + K n exp(-L s) by the turning of its curve on a dense grid: n/2 - turning/pi."""
@@ -80,7 +82,7 @@ def test_no_proportional_gain_holds_it():
         ultimate(Process([1], [1, 1, 0]))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.seeds(10, 40)
 def test_frequency_at_is_the_first_passage_on_a_dense_grid(seed):
     rng = np.random.default_rng(seed)
     n = int(rng.integers(1, 6))

@@ -121,7 +121,9 @@ def test_sampling_is_the_same_in_every_unit(seed):
 
 def test_the_exact_route_is_that_of_the_reference():
     process = Process([1, 2, 5], [1, 0.1, 4])
-    for mine, theirs in zip(exact_polynomials(process, 0.1, 0.03), reference(process.delayed(0.03), 0.1), strict=True):
+    for mine, theirs in zip(
+        exact_polynomials(process, 0.1, 0.03)[:2], reference(process.delayed(0.03), 0.1), strict=True
+    ):
         assert np.allclose(mine, theirs, rtol=4e-16, atol=0)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.skipif(not hasattr(sys, "getwindowsversion") and sys.platform == "win32", reason="it forks")
+pytestmark = [pytest.mark.builds, pytest.mark.skipif(sys.platform == "win32", reason="it forks")]
 spec = importlib.util.spec_from_file_location("chaos", Path(__file__).parents[3] / "tools" / "chaos.py")
 chaos = importlib.util.module_from_spec(spec)
 sys.modules["chaos"] = chaos

@@ -11,6 +11,8 @@ from notebook_reports.build.where import _suffix
 from notebook_reports.project.failures import Failure, summary
 from notebook_reports.project.project import UsageError
 
+pytestmark = pytest.mark.builds
+
 VALUE = st.one_of(
     st.none(), st.booleans(), st.integers(), st.floats(allow_nan=False), st.text(max_size=12), st.lists(st.integers())
 )

@@ -10,6 +10,8 @@ from loopbook.cli import main
 from notebook_reports.build import provenance
 from notebook_reports.project.project import UsageError
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.fixture
 def stated(bench):

@@ -6,6 +6,8 @@ import sys
 import nbformat
 import pytest
 
+pytestmark = pytest.mark.builds
+
 
 def nbconvert(folder, *arguments):
     command = [sys.executable, "-m", "nbconvert", *arguments]

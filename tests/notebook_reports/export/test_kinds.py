@@ -25,6 +25,8 @@ from notebook_reports.export.words import compare
 from notebook_reports.export.write.page_words import outside, text_of
 from notebook_reports.export.write.pdf_text import PdfText
 
+pytestmark = pytest.mark.builds
+
 FOLDER = Path(__file__).parent / "kinds"
 
 

@@ -9,6 +9,8 @@ import pytest
 from notebook_reports.export.write.mathematics_font import font_face
 from notebook_reports.mathematics import latex_to_mathml
 
+pytestmark = pytest.mark.builds
+
 
 def font_in(rule):
     from fontTools.ttLib import TTFont

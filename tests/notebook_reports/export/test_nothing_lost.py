@@ -2,6 +2,7 @@
 
 import re
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,6 +12,8 @@ from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.markdown import read_markdown
 from notebook_reports.export.read.reading import Reading
 from notebook_reports.export.write.typst_text import flowing, text_pieces
+
+pytestmark = pytest.mark.builds
 
 TAGS = (
     "b i span div p ul ol li table tr td th h2 pre blockquote font center a code q details summary section dl dt dd int"

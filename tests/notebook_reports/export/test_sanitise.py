@@ -248,6 +248,7 @@ def dials(make, **forms):
     return make.notebook("# T", make.code({DIAL: data, "text/plain": "a dial at 1"}), "Words.")
 
 
+@pytest.mark.builds
 def test_a_script_comes_from_an_installed_package_and_its_hash_is_in_the_policy(make, dial):
     page = make.html(dials(make))
     policy = re.search(r'Content-Security-Policy" content="([^"]+)"', page)[1]

@@ -174,3 +174,10 @@ def test_the_build_harvests_what_cells_leave(bench):
     assert "cell 4" in bench.said
     (record, _) = stamps.records(bench.project, bench.project.notebooks()[0])
     assert (record["cell"], record["section"]) == (3, "Results")
+
+
+def test_a_long_integer_is_the_same_only_digit_by_digit():
+    one, other, rounded = "2361183241434822606848", "2361183241434822606849", "2.3611832414348226e+21"
+    for old, new in ((one, other), (rounded, one)):
+        (row,), _ = ledger_files.compare("value", [found(exact=old)], [found(exact=new)])
+        assert row.fields["exact"] == new

@@ -97,6 +97,7 @@ def test_a_damaged_entry_is_a_miss(built, entry, damage):
     assert wrong(built) == [] and built.said == "3 notebooks up to date\n"
 
 
+@pytest.mark.long
 def test_a_seeded_fuzz_of_the_whole_cache(built):
     chance = random.Random(14)
     for _ in range(150):

@@ -13,6 +13,8 @@ from notebook_reports.project import home
 from notebook_reports.project.project import UsageError, find_project, no_project, project_at
 from notebook_reports.run.surroundings import environment
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.fixture
 def stranger(monkeypatch):

@@ -11,6 +11,8 @@ from notebook_reports.project import home
 from notebook_reports.run.canonical import canonical
 from notebook_reports.run.masks import Masks, home_shown
 
+pytestmark = pytest.mark.builds
+
 ROOT = Path("/somewhere/project")
 TABLE = "<table><tr><td>1/2</td></tr></table>"
 

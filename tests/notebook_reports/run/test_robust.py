@@ -16,7 +16,10 @@ from notebook_reports.project.project import EnvironmentProblem
 from notebook_reports.run import leftovers, warm
 from notebook_reports.run.surroundings import environment
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes and limits of Linux")
+pytestmark = [
+    pytest.mark.builds,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes and limits of Linux"),
+]
 
 
 @pytest.fixture

@@ -5,6 +5,8 @@ import sqlite3
 
 import pytest
 
+pytestmark = pytest.mark.builds
+
 READS = {
     "outside": "open({outside!r}).read()",
     "database": "import sqlite3\nsqlite3.connect({database!r}).execute('select x from t').fetchone()",

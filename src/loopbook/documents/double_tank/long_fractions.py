@@ -54,6 +54,6 @@ def read_back(printed: Mapping[str, Fraction], name: str) -> dict[int, Fraction]
     }
 
 
-def at(coefficients: Mapping[int, Fraction], q: Fraction) -> Fraction:
+def value_at(coefficients: Mapping[int, Fraction], q: Fraction) -> Fraction:
     """The value of the polynomial at q."""
     return sum((c * q**n for n, c in coefficients.items()), Fraction(0))

@@ -25,7 +25,7 @@ class ProgramController:
             raise ValueError(f"figure {figure!r} has no program; one of {', '.join(FIGURES)}")
         self.figure = figure
         self._pass = generated.program_pass(figure)
-        self.states = dict.fromkeys(self.state_names(figure), 0)
+        self.states: dict[str, Any] = dict.fromkeys(self.state_names(figure), 0)
         for name in states:
             if name not in self.states:
                 raise ValueError(f"figure {figure} has no state {name!r}; it has {', '.join(self.states)}")
@@ -53,6 +53,22 @@ class ProgramController:
         self.u, self.v = result["u"], result["v"]
         self.states = {name: result[name] for name in self.states}
         return self.u
+
+
+def runs_first_pass(figure: str, settings: PidSettings, started: bool) -> bool:
+    """Does the first pass of a program run? started: with zeros in its memories, or as printed, with nothing in them.
+
+    >>> [runs_first_pass("4.9", PidSettings(K=1, Ti=2, Td=1, Tf=1, h=1), started) for started in (False, True)]
+    [False, True]
+    """
+    program = ProgramController(figure, settings)
+    if not started:
+        program.states = dict.fromkeys(program.states)
+    try:
+        program.step(1, 2)
+    except TypeError:  # arithmetic with what was never set
+        return False
+    return True
 
 
 def parses(line: str) -> bool:

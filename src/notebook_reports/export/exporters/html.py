@@ -17,6 +17,7 @@ from notebook_reports.export.mends import number_mends
 from notebook_reports.export.model import Report
 from notebook_reports.export.write.html import HtmlWriter
 from notebook_reports.export.write.html_frame import bar, contents, onward
+from notebook_reports.export.write.html_sections import sections
 from notebook_reports.export.write.mathematics_font import font_face
 from notebook_reports.export.write.mending import mend_formulas
 
@@ -79,6 +80,7 @@ class HtmlExporter(ReportExporter):
             "tools": tools,
             "page_script": page_script(),
             "escape": escape,
+            "sections": sections,
         }
         text = self.template.render(**page)
         return text.replace("<style>\n", f"<style>\n{face}\n", 1) if (face := font_face(text)) else text

@@ -3,6 +3,7 @@
 from notebook_reports.export.errors import CannotShow
 from notebook_reports.export.model import (
     Alert,
+    Aside,
     Block,
     Break,
     Bullets,
@@ -70,7 +71,7 @@ def _parts(blocks: list[Block]) -> list[list[Inline]]:
                 parts += [[Text(f"{mark} "), *flat(item.blocks)] for mark, item in zip(marks, items, strict=True)]
             case Definitions(items):
                 parts += [[Styled("strong", term), Text(" "), *flat(body)] for term, body in items]
-            case Quote(inside) | Alert(_, inside):
+            case Quote(inside) | Alert(_, inside) | Aside(inside):
                 parts += _parts(inside)
             case FigureBlock(picture, caption):
                 parts += [[picture], *([caption] if caption else [])]

@@ -3,6 +3,7 @@
 import difflib
 import posixpath
 import re
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,9 @@ from urllib.parse import unquote
 
 from notebook_reports.export.errors import CannotShow, ExportError, Problem
 from notebook_reports.export.model import (
+    Alert,
     Anchor,
+    Aside,
     Block,
     Display,
     FigureBlock,
@@ -50,6 +53,13 @@ PARTS = ("markdown", "raw", "code", "input", "output")
 NEW_PAGE = "new-page"
 LONGEST_LEAD = 360
 """Characters of a paragraph, four lines, up to which it stays with what it introduces."""
+FOLDED = "folded"
+"""Of a Markdown cell that opens with a heading: its section is folded on a screen."""
+FRAMES: dict[str, Callable[[list[Block]], Block]] = {
+    "margin": Aside,
+    "try-it": lambda blocks: Alert("info", blocks),
+}
+"""Tags of a Markdown cell that stands in the margin or in a box."""
 _SCHEME = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*):")
 _NUMBERED = re.compile(r"\s*(\d+(\.\d+)*[.):]?|[IVX]+\.|[A-Z]\.|§.*)\s")
 
@@ -83,7 +93,9 @@ def read(
         reading.attachments = cell.get("attachments") or {}
         blocks = _cell(cell, reading, _language(notebook), leave_out)
         anchor = f"cell-{number}" if cell["cell_type"] == "code" and blocks else ""
-        cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in cell.get("metadata", {}).get("tags", ())))
+        tags = cell.get("metadata", {}).get("tags", ())
+        folded = FOLDED in tags and bool(blocks) and isinstance(blocks[0], Heading)
+        cells.append(ReportCell(number, blocks, anchor, NEW_PAGE in tags, folded))
     first = _take_title(cells)
     words: list[Inline] = first.children if first else [Text(name.rpartition("/")[2].replace("_", " "))]
     words = words_only(words)
@@ -126,7 +138,9 @@ def _cell(cell: Any, reading: Reading, language: str, leave_out: frozenset[str] 
         return []
     match cell["cell_type"]:
         case "markdown" | "heading":
-            return reading.attempt(lambda: read_markdown(source, reading), source)
+            found = reading.attempt(lambda: read_markdown(source, reading), source)
+            frame = next((FRAMES[tag] for tag in FRAMES if tag in tags), None)
+            return [frame(found)] if frame and found else found
         case "raw":
             return reading.attempt(lambda: _raw(source, cell.get("metadata", {}), reading), source)
         case "code":

@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from notebook_reports.export.errors import CannotShow
-from notebook_reports.export.model import Cell, Grid, plain
+from notebook_reports.export.model import Anchor, Cell, Grid, plain
 from notebook_reports.export.read.inline_text import read_inline
 
 MAX_ROWS = 5000
@@ -29,6 +29,10 @@ def from_data(data: dict[str, Any]) -> Grid:
             again = x < data.get("groups", 0) and row[: x + 1] == above[: x + 1]
             cells.append(Cell(read_inline(text), x, y, align=align[x], mark=mark if last else "", again=again))
         above = row
+    for y, name in enumerate(data.get("anchors", ()), start=1):
+        if name:
+            first = next(cell for cell in cells if (cell.x, cell.y) == (0, y))
+            first.children.insert(0, Anchor(name))
     notes = [read_inline(note) for note in data.get("notes", ())]
     caption = read_inline(data.get("caption", ""))
     grid = Grid(cells, len(columns), len(data["rows"]) + 1, 1, caption, notes)

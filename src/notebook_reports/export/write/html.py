@@ -11,6 +11,7 @@ from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
     Alert,
     Anchor,
+    Aside,
     Block,
     Break,
     Bullets,
@@ -99,6 +100,8 @@ class HtmlWriter:
                 return f'<div class="alert {kind}" role="note">{self.blocks(blocks)}</div>'
             case Folded(words, blocks):
                 return _fold(escape(words), self.blocks(blocks))
+            case Aside(blocks):
+                return f'<aside class="margin">{self.blocks(blocks)}</aside>'
             case Mend():
                 return self.mend(block)
             case ThematicBreak():

@@ -12,6 +12,7 @@ from notebook_reports.export.mends import KINDS, sentence
 from notebook_reports.export.model import (
     Alert,
     Anchor,
+    Aside,
     Block,
     Break,
     Bullets,
@@ -77,6 +78,7 @@ IMPORT = '#import "report.typ": ' + ", ".join(
         *("report", "book", "part", "chapter", "section", "landscape"),
         *("m", "long-m", "small-m", "code", "inner", "outer", "page-of", "task", "quoted", "lead", "inline-picture"),
         *("listing", "formula", "drawing", "data-table", "thematic-break", "marked", "brk", "tinted", "alert"),
+        "aside",
         *("mend", "mend-words", "mend-remark", "mend-list"),
         *("probe", "probe-code", *(f"probe-{style}" for style in STYLES)),
     )
@@ -156,6 +158,8 @@ class TypstWriter:
                 return f"#alert({typst_string(kind)})[{self.blocks(blocks)}]"
             case Folded(_, blocks):
                 return self.blocks(blocks)
+            case Aside(blocks):
+                return f"#aside[{self.blocks(blocks)}]"
             case Mend():
                 return self.mend(block)
             case ThematicBreak():
@@ -219,7 +223,7 @@ class TypstWriter:
             case Break():
                 return "#linebreak();"
             case Anchor(name):
-                return f"#[#metadata(none)#{self.label(name)}];"
+                return "" if self.probing else f"#[#metadata(none)#{self.label(name)}];"
             case Note(number, blocks):
                 label = self.label(f"footnote-{number}")
                 return f"#[#footnote[{self.blocks(blocks)}]#{label}];" if blocks else f"#footnote({label});"

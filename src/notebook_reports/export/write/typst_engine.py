@@ -23,7 +23,7 @@ STANDARDS: Final = ("a-2a", "ua-1")
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One complaint of the engine. line: 1-based line of main.typ, or None where it lies in no line of it."""
+    """One complaint of the engine. line: 1-based line of the source, or None where it lies in no line of it."""
 
     message: str
     line: int | None
@@ -81,41 +81,70 @@ class Compiled:
     places: tuple[Place, ...]
 
 
+CHAPTER = "// chapter "
+"""How the line before each chapter of a book begins; the first line of the source imports what all need."""
+
+
+def in_files(source: str) -> list[tuple[str, str, int]]:
+    """The source as files: (name, text, lines of the source before it), main.typ first.
+
+    Each chapter is a file of its own: where one is set anew, the engine remembers the others.
+
+    >>> in_files("import\\nshow\\n// chapter a\\nwords")[1:]
+    [('chapter-1.typ', 'import // chapter a\\nwords', 2)]
+    """
+    main, *chapters = re.split(f"^(?={CHAPTER})", source, flags=re.MULTILINE)
+    imports = source.partition("\n")[0]
+    found, above = [], main.count("\n")
+    for number, chapter in enumerate(chapters, start=1):
+        found.append((f"chapter-{number}.typ", f"{imports} {chapter}", above))
+        above += chapter.count("\n")
+    return [("main.typ", main + "".join(f'#include "{name}"\n' for name, *_ in found), 0), *found]
+
+
 def compile_pdf(source: str, files: dict[str, bytes]) -> Compiled:
-    """Compile main.typ beside its files. Raises TypstFailed, with all that is too wide."""
+    """Compile a source beside its files. Raises TypstFailed, with all that is too wide."""
     import typst
 
     with tempfile.TemporaryDirectory(prefix="pdf-", dir=runtime.folder()) as folder:
         root = Path(folder)
         for name, content in files.items():
             (root / name).write_bytes(content)
-        main = root / "main.typ"
-        main.write_text(source, encoding="utf-8")
+        above = {}
+        for name, text, lines in in_files(source):
+            (root / name).write_text(text, encoding="utf-8")
+            above[name] = lines
         nowhere = str(root / "no-packages")
         try:
             compiler = typst.Compiler(
-                str(main), root=folder, font_paths=fonts(), package_path=nowhere, package_cache_path=nowhere
+                str(root / "main.typ"),
+                root=folder,
+                font_paths=fonts(),
+                package_path=nowhere,
+                package_cache_path=nowhere,
             )
             pdf, warnings = compiler.compile_with_warnings(timestamp=int(EPOCH), pdf_standards=list(STANDARDS))
             noted = [note.split("|") for note in json.loads(compiler.query("<noted>", field="value"))]
         except typst.TypstError as error:
-            raise TypstFailed(_diagnostics(error.diagnostic, error.message)) from None
+            raise TypstFailed(_diagnostics(error.diagnostic, error.message, above)) from None
     assert isinstance(pdf, bytes), "a PDF is one piece"
     wide = [TooWide(int(n[1]), n[2], n[3], int(n[4]) / 100) for n in noted if n[0] == "wide"]
-    found = [d for w in warnings for d in _diagnostics(w.diagnostic, w.message)]
+    found = [d for w in warnings for d in _diagnostics(w.diagnostic, w.message, above)]
     found += [Diagnostic(f"loopbook|{w.cell}|{w.what}|{w.id}|{w.share * 100:.0f}", None) for w in dict.fromkeys(wide)]
     if found:
         raise TypstFailed(found, list(dict.fromkeys(wide)))
     return Compiled(pdf, tuple(Place(n[1], int(n[2]), float(n[3])) for n in noted if n[0] == "place"))
 
 
-def _diagnostics(text: str, message: str) -> list[Diagnostic]:
+def _diagnostics(text: str, message: str, above: dict[str, int]) -> list[Diagnostic]:
+    """above: by file the lines of the source before it."""
     found = []
     for part in re.split(r"^(?=(?:error|warning): )", text, flags=re.MULTILINE):
         head = re.match(r"(?:error|warning): (.*)", part)
         if head:
-            place = re.search(r"┌─ \S*main\.typ:(\d+):", part)
-            found.append(Diagnostic(head[1].strip(), int(place[1]) if place else None))
+            place = re.search(r"┌─ \S*?(main|chapter-\d+)\.typ:(\d+):", part)
+            line = above.get(f"{place[1]}.typ", 0) + int(place[2]) if place else None
+            found.append(Diagnostic(head[1].strip(), line))
     return found or [Diagnostic(message, None)]
 
 

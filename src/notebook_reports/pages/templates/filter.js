@@ -9,23 +9,24 @@
   const tables = [...document.querySelectorAll("main .table")].map((frame) => {
     const caption = frame.querySelector("caption");
     const title = caption ? caption.textContent.replace(/^Table \S+ /, "") : "";
+    const captioned = title.includes(": ");
     const heads = [...frame.querySelectorAll("thead th")].map((head) => head.textContent);
     const rows = [...frame.querySelectorAll("tbody tr")].map((row) => {
       const cells = [...row.cells].map((cell) => cell.textContent);
       const marked = heads.indexOf("verdict");
       const verdict = marked < 0 ? "" : cells[marked].replace(/^[^a-z]+/, "");
       const place = cells[heads.indexOf("place")] || "";
-      const owner = title.includes(": ") ? title.split(": ")[0] : place.split(", ")[0];
+      const owner = captioned ? title.split(": ")[0] : place.split(", ")[0];
       return { row, owner, verdict, words: plain([title, ...cells].join(" ")) };
     });
-    return { frame, heads, rows };
+    return { frame, captioned, rows };
   });
   const everything = tables.flatMap((table) => table.rows);
-  const names = new Set(tables.filter((t) => t.heads.includes("place")).flatMap((t) => t.rows.map((r) => r.owner)));
+  const names = new Set(tables.filter((table) => table.captioned).flatMap((table) => table.rows.map((row) => row.owner)));
   const offer = (field, values) => {
     for (const value of values) if (value) field.append(new Option(value, value));
   };
-  offer(documentOf, [...names].filter((name) => /^[\w-]+$/.test(name)).sort());
+  offer(documentOf, names);
   offer(verdictOf, [...new Set(everything.map((row) => row.verdict))].filter((v) => v && !/\d/.test(v)).sort());
 
   // what lies between two headings

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from derivations.algebra.delay_polynomials import Z
 from derivations.pole_placement.diophantine import integrators, place_exactly
-from loopbook.documents.double_tank.long_fractions import as_printed, at, read_back, symbolic_number
+from loopbook.documents.double_tank.long_fractions import as_printed, read_back, symbolic_number, value_at
 from loopbook.documents.open import printed as load
 from notebook_reports.ledger.verdicts import MISPRINT, ROUNDED, Computed, rounds_to, value_verdict
 
@@ -62,7 +62,7 @@ def test_the_printed_program_gives_the_table_but_for_d1():
     for name in ("Kr", "c1", "c2", "c3", "d0", "d1", "d2"):
         cubic = read_back(values, f"d_iterativ-{name}")
         for pole in ("0.3", "0.5", "0.7"):
-            same = rounds_to(at(cubic, F(pole)), DOCUMENT.values[f"regulator-{name}-q{pole}"].printed)
+            same = rounds_to(value_at(cubic, F(pole)), DOCUMENT.values[f"regulator-{name}-q{pole}"].printed)
             assert same == (name != "d1"), (name, pole)
 
 

@@ -60,6 +60,7 @@ def test_no_structure_with_the_four_good_cells_of_ziegler_and_nichols_gives_the_
     assert round(first["overshoot"] - float(odd["overshoot"]), 2) == -0.08
 
 
+@pytest.mark.long
 def test_readings_that_round_to_the_printed_ones_reach_the_print_and_not_the_next_digit():
     for overshoot, comes in (("39.6", True), ("39.7", False), ("39.3", False)):
         found = reached(TANK, 10 ** (95 / 20), "0.402", 100.0, printed("zn") | {"overshoot": overshoot})

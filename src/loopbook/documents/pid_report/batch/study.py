@@ -7,6 +7,7 @@ optimum's into arrays against the relative dead time.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -49,6 +50,7 @@ class MemberStudy:
         return self.frequency.K180 / self.member.process.static_gain
 
 
+@cache
 def study_process(member: Member, optimum: bool = True) -> MemberStudy:
     """Exact experiments on one process, all AMIGO rules that apply, and both optima (optimum=False leaves them out)."""
     process = member.process

@@ -12,6 +12,8 @@ from derivations.tuning.letters import K_180, T_180, K_p, L, T, kappa
 from loopbook.documents.pid_report.batch.nearness import RULES, nearness
 from loopbook.experiments.data import FrequencyData, StepData
 
+pytestmark = pytest.mark.long
+
 
 @cache
 def studies(factor):

@@ -1,0 +1,126 @@
+"""The printed formulas and programs of the pole-placement section, each put beside what was derived."""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from derivations.algebra.delay_polynomials import K, Z, in_delays, polynomial
+from derivations.pole_placement.diophantine import PolePlacement
+from loopbook.documents.double_tank.long_fractions import as_printed, read_back, value_at
+from loopbook.documents.printed_formulas import formulas
+from notebook_reports.ledger.document import Document
+from notebook_reports.ledger.verdicts import rounds_to
+from notebook_reports.ledger.words import shown as so  # noqa: F401 (chapters take it from here)
+
+REGULATOR = ("K_r", "c_1", "c_2", "c_3", "d_0", "d_1", "d_2")
+
+
+def two_forms_agree(printed: Mapping[str, Fraction]) -> bool:
+    """Are the sampled model in z and the one in z^-1, both as printed, the same pair of polynomials?"""
+    v = {id.removeprefix("sampled-"): x for id, x in printed.items()}
+    in_z = in_delays((v["z-b3"] * Z + v["z-b4"]) / (Z**4 + v["z-a1"] * Z**3 + v["z-a2"] * Z**2))
+    in_delay = polynomial([1, v["a1"], v["a2"]]), polynomial([0, 0, 0, v["b3"], v["b4"]])
+    return all(sympy.expand(one - other) == 0 for one, other in zip(in_z, in_delay, strict=True))
+
+
+def rows(design: PolePlacement) -> dict[str, Any]:
+    """The rows of the system as the appendix numbers them, ``row-z5`` to ``row-z0``: left side minus right side."""
+    return {f"row-z{5 - i}": sympy.expand(law.lhs - law.rhs) for i, law in enumerate(design.equations)}
+
+
+def rows_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
+    """Is each printed row the derived one?"""
+    printed = {id: formulas(document.said(id))[0] for id in rows(design)}
+    derived = rows(design)
+    return {id: bool(sympy.expand(left - right - derived[id]) == 0) for id, (left, right) in printed.items()}
+
+
+def recursions(design: PolePlacement) -> tuple[Any, Any]:
+    """y(k) and u(k) as the two difference equations give them."""
+    return design.plant_equation().rhs, design.regulator_equation().rhs
+
+
+def recursions_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
+    """Are the printed recursions, the expanded C, the rows of the start and those of the loop the derived ones?
+
+    A row of the start is the recursion with nothing before the first sample.
+    """
+    sides = recursions(design)
+    before = {sympy.Function(name)(i): 0 for name in "uy" for i in range(-3, 1)}
+    starts = [side.subs(K, i).subs(before) for i in range(1, 5) for side in sides]
+    derived = {
+        "plant-recursion": [sides[0]],
+        "regulator-recursion": [sides[1]],
+        "c-expanded": [design.C_form],
+        "start-up-rows": starts,
+        "loop-rows": list(sides),
+    }
+    printed = {id: [right for _, right in formulas(document.said(id))] for id in derived}
+    return {id: all(sympy.expand(x - y) == 0 for x, y in zip(derived[id], printed[id], strict=True)) for id in derived}
+
+
+def longest_shift(design: PolePlacement) -> int:
+    """The most samples that a recursion looks back: its general row may begin one later."""
+    signals = (f for side in recursions(design) for f in side.atoms(sympy.core.function.AppliedUndef))
+    return int(max(K - f.args[0] for f in signals))
+
+
+def laws_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
+    """Are the recursions, each shift a factor z^-1, the printed quotients of transforms?"""
+    signals = dict(zip("yur", sympy.symbols("Y U R"), strict=True))
+    forms = dict(zip(sympy.symbols("A B C D"), (design.A, design.B, design.C_form, design.D_form), strict=True))
+    laws = [(out - law).subs(forms) for out, law in formulas(document.said("laws-behind"))]
+    agree = {}
+    for name, newest, side, below, law in zip(
+        ("process", "regulator"), "yu", recursions(design), (design.A, design.C_form), laws, strict=True
+    ):
+        found = side.atoms(sympy.core.function.AppliedUndef)
+        shifted = {f: signals[f.func.__name__] * Z ** (f.args[0] - K) for f in found}
+        agree[name] = sympy.cancel(signals[newest] - side.subs(shifted) - below * law) == 0
+    return agree
+
+
+def quotient_orders(design: PolePlacement, parameters: Mapping[str, Fraction], h: float) -> tuple[int, int]:
+    """How many poles the closed loop has as the script builds it from quotients, and how many are left of them.
+
+    parameters: numbers for all symbols of the design by name. Needs python-control.
+    """
+    import control
+
+    delay = 1 / control.tf([1, 0], [1], h)  # z^-1
+    numbers = {name: float(value) for name, value in parameters.items()}
+    forms = (design.A, design.B, design.C_form, design.D_form)
+    A, B, C, D = (sympy.lambdify(Z, form.subs(numbers))(1 / delay) for form in forms)
+    total = numbers["K_r"] * B / (A * C + B * D)
+    return len(total.poles()), len(control.minreal(total, tol=1e-3, verbose=False).poles())
+
+
+def ratios(design: PolePlacement, coefficients: Mapping[Any, Fraction]) -> dict[str, int]:
+    """Numerators and denominators of the parameters as polynomials in q, by the ids of the appendix."""
+    found: dict[str, int] = {}
+    for name, value in design.parameters.items():
+        terms = sympy.Poly(value.subs(coefficients), sympy.Symbol("q")).terms()
+        powers = {power: Fraction(int(c.p), int(c.q)) for (power,), c in terms}
+        found |= as_printed(f"d_iterativ-{name.replace('_', '')}", powers)
+    return found
+
+
+def typed_in(document: Document) -> dict[str, dict[str, Fraction]]:
+    """What the long expressions of the appendix, typed in as printed, give at the poles of the table, by name and q."""
+    text = document.given("Appendix, d_iterativ")
+    polynomials = {name: read_back(text, f"d_iterativ-{name.replace('_', '')}") for name in REGULATOR}
+    poles = ("0.3", "0.5", "0.7")
+    return {name: {q: value_at(polynomial, Fraction(q)) for q in poles} for name, polynomial in polynomials.items()}
+
+
+def typed_in_agree(document: Document) -> dict[str, bool]:
+    """Do they round to the table's cells?"""
+    table = document.printed.values
+    return {
+        f"${name}$": all(
+            rounds_to(value, table[f"regulator-{name.replace('_', '')}-q{q}"].printed) for q, value in values.items()
+        )
+        for name, values in typed_in(document).items()
+    }
