@@ -24,16 +24,20 @@ EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let)\b)", re
 OWN = frozenset(
     re.findall(
         r"\w+",
-        """axes band bandSoon banding before begin beginning blocks branch branchEnd buttons clearance clipped
-        colour colours constants crossing crossings curvature deepest depth distance draw drawRecord drawn edges
-        evaluated extremes falls firstViolation formKnobs formShown frame future gainAtInfinity gainCrossovers
-        gainLow grab holding instants integralOfMagnitude inverse kdLimit kept keyRow keyTold kindShown knobs
-        lastFrequency lastStable later limited logMagnitude logSlope logX main modes monotonePhase nodes onAxis
-        outputs overshoot ownUnits part past phaseAtStart phaseCrossovers pinButton pins placed plant plotCard
-        plots polished possible printing quiet rangeAround readAddress reference refresh replay replayed result
-        rows rowsTold ruleCard rulesFor scaled scales secondTouch settle settling shortcut showKnobs showRules
-        signals stairs startPhase survey tails toCoefficients travel typedIn unstableRoots useRule usual valueOf
-        variation view waiting whole worst writeAddress writing xLabels xTicks yTicks""",
+        """arriving asks axes bad_measurement band banding bandSoon before begin beginning blocks boxes branch
+        branchEnd buttons cautions clearance clipped colour colours constants crossing crossings current
+        curvature curve dead deepest delay depth distance draw drawn drawRecord edges element evaluated
+        extremes falls first firstViolation formKnobs formShown frame future gainAtInfinity
+        gainCrossovers gainLow given grab grid holding horizon instants integralOfMagnitude inverse
+        kdLimit kept keyRow keyTold kindShown knobs largest lastFrequency lastStable later limited
+        limited_high limited_low listeners logMagnitude logSlope logX magnitude main margins modes
+        monotonePhase nodes onAxis outputs overshoot ownUnits part past phaseAtStart phaseCrossovers
+        pinButton placed plant plotCard plots polished possible printing quiet rangeAround rate_limited
+        rate_step readAddress reference refresh refusals replay replayed result rows rowsTold ruleCard
+        rulesFor scaled scales second secondTouch settle settling shortcut showKnobs showRules signals
+        slider stable stairs started startPhase survey tails toCoefficients transfer travel typedIn
+        unstableRoots useRule usual valueOf variation view waiting whole worst writeAddress writing
+        written xLabels xTicks y_last y_sp_last yTicks""",
     )
 )
 """Properties of the page's own objects that get shorter names in the bundle: long ones, and those used often.

@@ -15,7 +15,8 @@ MARKS = {
     **{"K": 101.015625, "Ti": 102.015625, "Td": 103.015625, "Tf": 104.015625, "b": 0.615625, "c": 0.415625},
     **{"Tt": 105.015625, "h": 106.015625, "u_low": -107.015625, "u_high": 108.015625, "rate": 109.015625},
 }
-NOT_IN_A_PAGE = ("manual", "change", "cycle")
+NOT_IN_A_PAGE = ("manual", "cycle")
+UNASKED = re.compile(r"\n    // (?:The flags|Settings that are not named).*?\n(?=\n    (?://|if))", re.S)
 FORMS = {"(lb_real)": "c", "REAL#": "s", "": "p"}
 
 
@@ -25,7 +26,8 @@ def law_script() -> str:
     block = pid_block(K=1.0, Ti=1.0, h=1.0, name="emitted_law")
     used = tuple(o for o in block.program.operations if o.name not in NOT_IN_A_PAGE)
     text = emit(replace(block, program=replace(block.program, operations=used)), "js")["emitted_law.mjs"]
-    return text[text.index("export function emittedLaw") :]
+    text = UNASKED.sub("", text[text.index("export function emittedLaw") :])
+    return text.replace(" changed, flags,", "")
 
 
 def with_places(text: str) -> str:

@@ -5,6 +5,7 @@ process      {num, den} of a process that no knob can make; the knob K then mult
 record       {t, u, y, u0, y0} of a step test, shown behind the model
 names        {y, u}: what the axes are called
 name         of the program that is written out
+pins         [knobs] that differ from the state: settings that are pinned, the first of them the one before half-time
 """
 
 import math
@@ -40,6 +41,8 @@ def settings(
     record: Mapping[str, Sequence[float] | float] | None = None,
     names: Mapping[str, str] | None = None,
     poles: Mapping[str, float] | None = None,
+    before: Any = None,
+    wave: tuple[float, float] | None = None,
     name: str = "",
 ) -> dict[str, Any]:
     """The page's data.
@@ -47,7 +50,8 @@ def settings(
     regulator: a PID form, a `Tuning`, `PidSettings`, a gain; None for SIMC's, or AMIGO's where that does not apply.
     limits: of u, as deviations. h [s]: sampling interval, 0 for none. steps: (set-point [y], load [u]), default 1 and
     half of what holds it. uncertainty: {"K", "T", "L"} in per cent. poles: {"speed", "damping", "rest", "observer"} of
-    a pole placement [rad/s] in the place of a regulator; needs h.
+    a pole placement [rad/s] in the place of a regulator; needs h. before: a regulator that runs until half-time,
+    when it gets the settings of the other. wave: (amplitude [y], frequency [Hz]) of a sine on the measurement.
     Raises TunerError for a regulator of another kind.
     """
     knobs, given = _knobs(process)
@@ -58,20 +62,30 @@ def settings(
         state |= {"kind": "rst", **{key: float(value) for key, value in poles.items()}}
         if not h:
             raise TunerError("poles are placed for a sampled process: give h, the sampling interval [s]")
-        pid = None
     else:
-        pid = _standard(regulator if regulator is not None else _first(process))
-        state |= {"Kc": pid.K, "Ti": pid.Ti, "Td": pid.Td, "N": pid.N if pid.Td else 10.0, "b": pid.b, "c": pid.c}
+        state |= _settings(regulator if regulator is not None else _first(process))
     if isinstance(regulator, PidSettings):
         state["h"] = float(regulator.h)
         limits = limits or (float(regulator.u_low), float(regulator.u_high))
     if limits is not None:
         low, high = (float(x) if math.isfinite(x) else None for x in limits)
         state |= {"low": low, "high": high}
+    if wave is not None:
+        state |= {"wave": float(wave[0]), "freq": float(wave[1])}
+    pins = []
+    if before is not None:
+        state |= {"jump": True, "smooth": True}
+        pins = [{key: _plain(value) for key, value in _settings(before).items()}]
     for key, share in (uncertainty or {}).items():
         state[f"u{key}"] = round(float(share), 3)
     data: dict[str, Any] = {"state": {key: _plain(value) for key, value in state.items()}}
-    more = {"process": given, "record": record and _thinned(record), "names": names and dict(names), "name": name}
+    more = {
+        "process": given,
+        "record": record and _thinned(record),
+        "names": names and dict(names),
+        "name": name,
+        "pins": pins,
+    }
     return data | {key: value for key, value in more.items() if value}
 
 
@@ -126,6 +140,12 @@ def _standard(regulator: Any) -> PidStandard:
         )
     standard: PidStandard = form.standard()
     return standard
+
+
+def _settings(regulator: Any) -> dict[str, Any]:
+    """The knobs of a regulator."""
+    pid = _standard(regulator)
+    return {"Kc": pid.K, "Ti": pid.Ti, "Td": pid.Td, "N": pid.N if pid.Td else 10.0, "b": pid.b, "c": pid.c}
 
 
 def _first(process: Process) -> Any:

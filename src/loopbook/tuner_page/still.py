@@ -12,10 +12,12 @@ from loopbook.loop.continuous import Loop
 from loopbook.loop.sampled import SampledLoop
 from loopbook.loop.transfer import LoopError
 from loopbook.plots.curves import COLOURS, STYLES
+from loopbook.plots.stairs import stairs
 from loopbook.pole_placement.place import place
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import simulate
+from loopbook.tuner_page.running import is_programmed, number, program_settings, rst_of, run
 
 SIZE = (7.4, 3.5)
 
@@ -36,16 +38,20 @@ def process_of(data: Mapping[str, Any]) -> Process:
 def regulator_of(data: Mapping[str, Any]) -> PidStandard:
     """The PID regulator that the page's data stand for."""
     s = data["state"]
-    Ti, N = (math.inf if s[key] == "inf" else s[key] for key in ("Ti", "N"))
+    Ti, N = number(s["Ti"]), number(s["N"])
     filtered = {"N": N} if s["Td"] else {}
     return PidStandard(s["Kc"], Ti, s["Td"], b=s["b"], c=s["c"], **filtered)
 
 
 def loop_of(data: Mapping[str, Any]) -> Loop | SampledLoop:
-    """The loop that the page's data stand for; of a pole placement the sampled one."""
+    """The loop that the page's data stand for; with a sampling interval, as of a pole placement, the sampled one."""
     s, process = data["state"], process_of(data)
     if s.get("kind") != "rst":
-        return Loop(process, regulator_of(data))
+        return (
+            SampledLoop(process, rst_of(program_settings(s, s["h"])))
+            if s.get("h")
+            else Loop(process, regulator_of(data))
+        )
     count, h = process.order + 1, s["h"]
     pair = s["speed"] * (-s["damping"] + 1j * math.sqrt(max(1 - s["damping"] ** 2, 0.0)))
     wanted = [pair, pair.conjugate()][:count] + [complex(-s["rest"])] * (count - 2)
@@ -67,8 +73,11 @@ def still(data: Mapping[str, Any]) -> Any:
         axis.set_ylabel(_literal(name))
         axis.grid(True, linewidth=0.4, alpha=0.5)
     axes[1].set_xlabel("time $t$ [s]")
-    for axis, (t, values) in zip(axes, _responses(loop, s), strict=False):
+    for axis, (t, values) in zip(axes, _responses(loop, data), strict=False):
         axis.plot(t, values, color=COLOURS[0], linewidth=1.4)
+    for limit in (s.get("low"), s.get("high")):
+        if limit is not None:
+            axes[1].axhline(limit, color=COLOURS[1], linewidth=0.8, linestyle=":")
     axes[0].axhline(s["r"], color="0.6", linewidth=0.8, linestyle="--")
     axes[2].add_patch(plt.Circle((0, 0), 1, fill=False, edgecolor="0.6", linestyle=":"))
     curve = nyquist_curve(loop)
@@ -89,21 +98,33 @@ def nyquist_curve(loop: Loop | SampledLoop) -> np.ndarray:
     return np.asarray(loop.transfer(1j * middle * np.geomspace(0.03, 60, 1500)))
 
 
-def _responses(loop: Loop | SampledLoop, s: Mapping[str, Any]) -> list[tuple[np.ndarray, np.ndarray]]:
+def _responses(loop: Loop | SampledLoop, data: Mapping[str, Any]) -> list[tuple[np.ndarray, np.ndarray]]:
     """(t, y) and (t, u)."""
+    s = data["state"]
+    if is_programmed(data):
+        course = run(data, process_of(data), _horizon(Loop(loop.process, regulator_of(data))))
+        return [(course.t, course.y), stairs(course.t, course.u)]
     if isinstance(loop, SampledLoop):
         steps = max(40, round(12 / (s["speed"] * s["h"])))
         load = [0.0 if k < steps // 2 else s["d"] for k in range(steps + 1)]
-        run = simulate(loop.process, loop.regulator.controller(), s["h"], steps, reference=s["r"], load=load)
-        return [(run.t, run.y), (run.t, run.u)]
-    try:
-        horizon = 2.4 * max(loop.step("reference").metrics().settling, 3 * loop.process.delay)
-    except LoopError:
-        horizon = 5 * (loop.process.delay + sum(1 / abs(p.real) for p in loop.process.poles if p.real))
+        low, high = number(s.get("low"), -math.inf), number(s.get("high"))
+        course = simulate(
+            loop.process, loop.regulator.controller(low, high), s["h"], steps, reference=s["r"], load=load
+        )
+        return [(course.t, course.y), stairs(course.t, course.u)]
+    horizon = _horizon(loop)
     t = np.linspace(0.0, horizon, 600)
     reference, load_step = loop.step("reference", horizon), loop.step("load", horizon)
     (y1, u1), (y2, u2) = reference.after([(0.0, s["r"])], t), load_step.after([(horizon / 2, s["d"])], t)
     return [(t, y1 + y2), (t, u1 + u2)]
+
+
+def _horizon(loop: Loop) -> float:
+    """How much time is shown [s]."""
+    try:
+        return 2.4 * max(loop.step("reference").metrics().settling, 3 * loop.process.delay)
+    except LoopError:
+        return 5 * (loop.process.delay + sum(1 / abs(p.real) for p in loop.process.poles if p.real))
 
 
 def _title(loop: Loop | SampledLoop) -> str:

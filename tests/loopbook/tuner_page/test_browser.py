@@ -269,6 +269,27 @@ def test_poles_are_dragged(opened):
     assert state(tab)["speed"] > 0.055 and state(tab)["damping"] > 0.72 and tab.said == []
 
 
+def test_settings_change_at_half_time_with_and_without_a_bump(opened):
+    before, after = PidStandard(4.0, 2.0, 0.4, Tf=0.1), PidStandard(5.0, 2.0, 0.8, b=0.5, Tf=0.1)
+    tab = opened(settings(lb.tf(1, [1, 2, 1]), after, h=0.1, before=before, steps=(1.0, 0.0)))
+    jump = """(() => { const { u } = document.querySelector('.live').tuner.run, half = Math.floor(u.length / 2);
+        return Math.abs(u[half] - u[half - 1]); })()"""
+    assert tab.evaluate(jump) < 1e-3
+    tab.get_by_label("bumpless").uncheck()
+    tab.wait_for_timeout(200)
+    assert tab.evaluate(jump) > 1
+    tab.get_by_role("button", name="remove pin 1").click()
+    tab.wait_for_timeout(200)
+    assert not tab.get_by_label("bumpless").is_visible() and tab.said == []
+
+
+def test_a_sine_on_the_measurement_is_folded_by_sampling(opened):
+    tab = opened(settings(lb.Process.fopdt(1, 1, 0.1), PidStandard(2.0, 1.0), h=0.1, wave=(0.2, 9.0)))
+    assert "Sampled every 0.1 s, the sine of 9 Hz is one of 1 Hz." in tab.locator(".lbt-words").inner_text()
+    set_knob(tab, "h", "0,02")
+    assert "Sampled" not in tab.locator(".lbt-words").inner_text()
+
+
 def test_everything_has_a_name_and_the_summary_is_spoken(opened):
     tab = opened()
     kinds = ", ".join(f".lbt {kind}" for kind in ("input", "button", "select", "canvas", "fieldset"))
@@ -290,6 +311,11 @@ def test_one_screen_on_a_laptop_and_nothing_sticks_out_on_a_phone(opened, scheme
     assert laptop.evaluate("document.documentElement.scrollHeight <= innerHeight")
     background = laptop.evaluate("getComputedStyle(document.querySelector('.lbt-card')).backgroundColor")
     assert background == {"light": "rgb(255, 255, 255)", "dark": "rgb(24, 30, 38)"}[scheme]
+    small = opened(viewport={"width": 1280, "height": 650}, color_scheme=scheme)
+    assert small.evaluate("document.documentElement.scrollHeight <= innerHeight")
+    assert small.evaluate(
+        "(({ scrollHeight, clientHeight }) => scrollHeight <= clientHeight)(document.querySelector('.lbt-side'))"
+    )
     phone = opened(viewport=PHONE, color_scheme=scheme)
     assert phone.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert phone.evaluate("getComputedStyle(document.querySelector('.lbt-foot')).position") == "sticky"
@@ -314,6 +340,7 @@ def test_in_a_report_two_pages_share_one_script_and_keep_apart(opened):
     tab.locator('[data-knob="Kc"]').nth(1).press("Enter")
     tab.wait_for_timeout(500)
     states = tab.evaluate("[...document.querySelectorAll('.live')].map((e) => e.tuner.state.Kc)")
+    assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert states == [0.65, 0.7] and tab.evaluate("location.hash").startswith("#tuner2:")
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from loopbook.tuner_page import bundle as bundling
 from loopbook.tuner_page.bundle import FOLDER, OWN, BundleError, bundle
+from loopbook.tuner_page.formulas import rules_words
 from loopbook.tuner_page.packed import packed
 from loopbook.tuner_page.script import generated, script
 from loopbook.tuner_page.small import small
@@ -73,14 +74,20 @@ def test_the_bundle_refuses_what_it_would_change():
         bundle("a.js", {"a.js": "export default 3;\n"})
 
 
-def test_properties_that_get_shorter_names_stand_in_no_text():
-    text = re.sub(r"^import .*$", "", "\n".join(path.read_text(encoding="utf-8") for path in MODULES), flags=re.M)
-    words = {
-        word for kind, token in tokens(text) if kind in ("string", "template") for word in re.findall(r"\w+", token)
-    }
+def test_properties_that_get_shorter_names_are_asked_for_by_no_text():
+    """A text that is the name of such a property could be its key; one that is written out as a key is not."""
+    texts = [re.sub(r"^import .*$", "", path.read_text(encoding="utf-8"), flags=re.M) for path in MODULES]
+    texts += [generated()[name] for name in ("rules/formulas.js", "generated/law.js")]
+    names = set()
+    for text in texts:
+        found = list(tokens(text))
+        for i, (kind, token) in enumerate(found):
+            key = found[i - 1][1] in ("{", ",") and found[i + 1][1] == ":" if i else False
+            if kind == "string" and not key:
+                names |= {token.strip("\"'"), *token.strip("\"'").split(",")}
     keys = set(re.findall(r'"(\w+)":', (FOLDER / "ui" / "words.json").read_text(encoding="utf-8")))
-    made = set(re.findall(r"\w+", generated()["rules/formulas.js"] + generated()["generated/law.js"]))
-    assert OWN & (words | keys | made) == set()
+    places = set(re.findall(r"\{(\w+)", json.dumps(rules_words())))  # what the words of a rule ask for
+    assert OWN & (names | keys | places) == set()
 
 
 SAMPLE = """

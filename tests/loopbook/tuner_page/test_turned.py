@@ -14,12 +14,13 @@ import loopbook as lb
 from loopbook.cli import main
 from loopbook.controllers.pid_forms import PidParallel, PidStandard
 from loopbook.controllers.settings import PidSettings
+from loopbook.tuner_page import running
 from loopbook.tuner_page.files import of_file
 from loopbook.tuner_page.page import POLICY, page
 from loopbook.tuner_page.script import MIME, script
 from loopbook.tuner_page.settings import TunerError, settings
 from loopbook.tuner_page.shown import complete, shown
-from loopbook.tuner_page.still import loop_of, process_of, still_svg
+from loopbook.tuner_page.still import loop_of, process_of, regulator_of, still_svg
 from loopbook.tuner_page.turned import tuner
 from loopbook.tuner_page.widget import module, widget
 from notebook_reports.export import scripts
@@ -69,6 +70,9 @@ def test_the_knobs_are_the_regulator(regulator):
     if isinstance(regulator, PidSettings):
         assert data["state"]["h"] == 0.5 and (data["state"]["low"], data["state"]["high"]) == (-1.0, 2.0)
         regulator = PidStandard(0.5, 10.0, 1.0, b=1.0, c=0.0, Tf=0.1)
+    if data["state"]["h"]:
+        sampled, loop = loop, lb.Loop(process_of(data), regulator_of(data))
+        assert sampled.regulator.h == 0.5 and sampled.regulator.S[0] == pytest.approx(0.5 + 0.5 * 1.0 / (0.1 + 0.5))
     assert loop.transfer(W) == pytest.approx(lb.Loop(PROCESSES["one lag"], regulator).transfer(W), rel=1e-9)
 
 
@@ -231,3 +235,57 @@ def test_the_widget_says_what_it_needs_and_has_a_module():
     if importlib.util.find_spec("anywidget") is None:
         with pytest.raises(ModuleNotFoundError, match=r"pip install 'loopbook\[widget\]'"):
             widget(settings(PROCESSES["one lag"], 0.5))
+
+
+BEFORE, AFTER = (
+    PidSettings(K=4.0, Ti=2.0, Td=0.4, Tf=0.1, h=0.1, u_low=0.0, u_high=1.5),
+    PidSettings(K=5.0, Ti=2.0, Td=0.8, Tf=0.1, b=0.5, h=0.1, u_low=0.0, u_high=1.5),
+)
+PROGRAMMED = {
+    "limits": {"limits": (-0.1, 0.7)},
+    "an interval": {"h": 0.5},
+    "a sine that is folded": {"h": 0.5, "wave": (0.2, 1.9)},
+    "a sine": {"wave": (0.2, 0.1)},
+    "other settings": {"before": PidStandard(0.5, 12.0, 1.0, N=5), "limits": (-2.0, 2.0)},
+}
+RUN = """(state, pins) => {
+    const s = { ...page.DEFAULTS, ...state };
+    return page.evaluate(s, null, {}, { before: s.jump ? { ...s, ...pins[0] } : undefined }).run;
+}"""
+
+
+@pytest.mark.parametrize("what", PROGRAMMED)
+@pytest.mark.parametrize("bumpless", [True, False], ids=["bumpless", "bare"])
+def test_the_figure_runs_the_program_that_the_page_runs(ask, what, bumpless):
+    data = settings(PROCESSES["three lags"], PidStandard(0.9, 11.0, 2.0, b=0.6, N=8), **PROGRAMMED[what])
+    data["state"]["smooth"] = bumpless
+    assert running.is_programmed(data)
+    page_run = ask(RUN, data["state"], data.get("pins", []))
+    h = page_run["h"]
+    ours = running.run({**data, "state": {**data["state"], "h": h}}, process_of(data), page_run["span"])
+    assert page_run["u"] == pytest.approx(ours.u, abs=1e-9)
+    assert page_run["seen"] == pytest.approx(ours.measured, abs=1e-9)
+
+
+def test_new_settings_jump_where_nothing_is_done_about_it():
+    data = settings(lb.tf(1, [1, 2, 1]), AFTER, before=BEFORE, steps=(1.0, 0.0))
+    assert data["state"]["jump"] and data["pins"][0]["Kc"] == 4.0
+    moved = []
+    for bumpless in (True, False):
+        course = running.run({**data, "state": {**data["state"], "smooth": bumpless}}, process_of(data), 30.0)
+        half = len(course.u) // 2
+        moved.append(abs(course.u[half] - course.u[half - 1]))
+    assert moved[0] < 1e-3 and moved[1] > 0.9
+
+
+def test_what_is_uncertain_is_met_by_the_regulator_that_was_placed(ask):
+    process, h = lb.tf(2, [[7, 1], [5, 1]], 2), 1.0
+    data = settings(process, h=h, poles={"speed": 0.6931, "damping": 1.0, "rest": 0.6931, "observer": 0.0})
+    asked = """(state) => { const s = { ...page.DEFAULTS, ...state }, own = page.evaluate(s, null);
+        return [own.stable, page.evaluate(s, null, { L: 2.3 }, { placed: own.placed }).margins.Ms.value,
+            page.evaluate(s, null, { L: 2.4 }, { placed: own.placed }).stable]; }"""
+    stable, Ms, longer = ask(asked, data["state"])
+    loop = loop_of(data)
+    assert stable and loop.is_stable and loop.margins().delay < 0.4
+    assert Ms == pytest.approx(loop.with_delay(0.3).margins().Ms.value, rel=1e-7)
+    assert not longer and not loop.with_delay(0.4).is_stable

@@ -36,9 +36,10 @@ export function rstController({ R, S, T, observer }, low, high) {
     };
 }
 
-// Runs controller.step(r, y) on a process from `sample` for some samples. reference(t), load(t): courses. points: how
-// many per sample are given of y. Returns {t, y, instants, u}: u holds from each instant on.
-export function simulate(sampled, controller, steps, { reference, load, points = 1 }) {
+// Runs controller.step(r, y, k) on a process from `sample` for some samples. reference(t), load(t), noise(t): courses, the
+// last one of the measurement alone. points: how many per sample are given of y. Returns {t, y, instants, u, seen}: u holds
+// from each instant on, seen is what was measured there.
+export function simulate(sampled, controller, steps, { reference, load, noise = () => 0, points = 1 }) {
     const { plant, whole, tau, h } = sampled, { n, C, d } = plant;
     const cuts = [], grid = [];
     for (let j = 0; j < points; j += 1) grid.push(j * h / points);
@@ -46,14 +47,15 @@ export function simulate(sampled, controller, steps, { reference, load, points =
     for (let i = 1; i < marks.length; i += 1) {
         cuts.push({ from: marks[i - 1], late: marks[i - 1] >= tau, ...held(plant, marks[i] - marks[i - 1]), given: grid.includes(marks[i - 1]) });
     }
-    const history = [], t = [], y = [], instants = [], u = [];
+    const history = [], t = [], y = [], instants = [], u = [], seen = [];
     const entered = (k) => (k >= 0 ? history[k] : 0);
     let x = new Float64Array(n), other = new Float64Array(n);
     for (let k = 0; k <= steps; k += 1) {
         const now = k * h, acting = entered(tau ? k - whole - 1 : k - whole);
         let measured = tau || whole ? d * acting : 0;
         for (let i = 0; i < n; i += 1) measured += C[i] * x[i];
-        const output = controller.step(reference(now), measured);
+        seen.push(measured + noise(now));
+        const output = controller.step(reference(now), seen[k], k);
         instants.push(now);
         u.push(output);
         history.push(output + load(now));
@@ -73,5 +75,5 @@ export function simulate(sampled, controller, steps, { reference, load, points =
             [x, other] = [other, x];
         }
     }
-    return { t, y, instants, u };
+    return { t, y, instants, u, seen };
 }

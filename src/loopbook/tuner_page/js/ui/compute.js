@@ -11,6 +11,7 @@ import { pidPolynomials, rstController, simulate } from "../core/run.js";
 import { pulseTransfer, sample } from "../core/sampled.js";
 import { decayRate, dominantPoles, isStable, unstableRoots } from "../core/stability.js";
 import { emittedLaw } from "../generated/law.js";
+import { programSettings } from "./pythonic.js";
 import { pidOf, processOf } from "./state.js";
 
 const POINTS = 420;
@@ -34,10 +35,13 @@ export function processTime(process) {
 
 const failed = (error) => ({ error: error.message });
 
-// {process, pid, loop, stable, count, margins, poles, run, numbers, sampledAt, error}
-export function evaluate(s, given, change = {}) {
-    const process = processOf(s, given, change), pid = pidOf(s), limited = s.low !== null || s.high !== null;
-    const found = { process, pid, loop: loopTransfer(process, pid), time: processTime(process), limited };
+// {process, pid, loop, stable, count, margins, poles, run, numbers, sampledAt, error}. change: of the process, which the
+// regulator does not know. before: the setting that runs until half-time, where this one is to follow one. placed: the
+// regulator, where poles have been placed already.
+export function evaluate(s, given, change = {}, { before, placed } = {}) {
+    const process = processOf(s, given, change), pid = pidOf(s), follows = s.jump && before?.kind === "pid" ? before : null;
+    const limited = s.low !== null || s.high !== null || s.wave !== 0 || follows !== null;
+    const found = { process, pid, loop: loopTransfer(process, pid), time: processTime(process), limited, before: follows, placed };
     try {
         if (s.kind === "rst" || s.h > 0) sampledLoop(s, found);
         else continuousLoop(s, found);
@@ -60,7 +64,8 @@ function continuousLoop(s, found) {
     found.span = spanOf(found);
     const { limited } = found;
     if (limited) {
-        const h = Math.min(found.span / 1200, ...(pid.Tf ? [pid.Tf / 2] : []), ...(process.delay ? [process.delay / 4] : []));
+        const wave = s.wave ? [1 / (20 * s.freq)] : [];
+        const h = Math.min(found.span / 1200, ...wave, ...(pid.Tf ? [pid.Tf / 2] : []), ...(process.delay ? [process.delay / 4] : []));
         runProgram(s, found, Math.max(h, found.span / MOST_SAMPLES));
     } else {
         found.run = linearRun(s, found);
@@ -136,29 +141,40 @@ function measured(s, { t, y, u, span }) {
     });
     u.forEach((value, i) => { if (i * span / u.length < half) variation += Math.abs(value - (i ? u[i - 1] : 0)); });
     const settled = settling < half * 0.98;
-    return { overshoot: settled ? Math.max(0, 100 * top) : null, settling: settled ? settling : null, iae: s.d ? iae / Math.abs(s.d) : null, variation };
+    return { overshoot: settled ? Math.max(0, 100 * top) : null, settling: settled ? settling : null, iae: s.d ? iae / Math.abs(s.d) : NaN, variation };
 }
 
 // The program of the regulator: a controller with step(r, y), from rest at zero.
 function programOf(s, h, placed) {
-    const low = s.low ?? -Infinity, high = s.high ?? Infinity;
-    if (placed) return rstController(placed, low, high);
-    const Ti = Number.isFinite(s.Ti) ? s.Ti : 0, Tf = s.Td && Number.isFinite(s.N) ? s.Td / s.N : 0;
-    const tracking = s.Td ? Math.sqrt(Ti * s.Td) : Ti / 2;
-    const law = emittedLaw({
-        K: s.Kc, Ti, Td: s.Td, Tf, b: s.b, c: s.c, h, u_low: low, u_high: high, rate: 0,
-        Tt: s.windup && Ti ? Math.max(tracking, h) : Infinity,
-    });
+    if (placed) return rstController(placed, s.low ?? -Infinity, s.high ?? Infinity);
+    const law = emittedLaw(programSettings(s, h));
     law.start(0, 0, 0, 0);
     law.state.arriving = false;
-    return { step: (r, y) => law.step(r, y, 0), state: law.state };
+    return { step: (r, y) => law.step(r, y, 0), state: law.state, law };
+}
+
+// The program of one setting that gets those of another at a sample: as the law changes them, or with its states kept.
+export function changingProgram(first, then, h, at) {
+    const { law, state } = programOf(first, h);
+    return {
+        step(r, y, k) {
+            if (k === at) {
+                const { I, x } = state;
+                law.change(programSettings(then, h));
+                if (!then.smooth) Object.assign(state, { I, x });
+            }
+            return law.step(r, y, 0);
+        },
+    };
 }
 
 function runProgram(s, found, h, placed = null) {
     const sampled = sample(found.process, h), steps = Math.max(2, Math.min(MOST_SAMPLES, Math.round(found.span / h)));
     const half = Math.round(steps / 2) * h, points = Math.max(1, Math.round(POINTS / steps));
-    const courses = { reference: () => s.r, load: (t) => (t >= half - h / 1e6 ? s.d : 0), points };
-    const run = simulate(sampled, programOf(s, h, placed), steps, courses);
+    const noise = (t) => (s.wave ? s.wave * Math.sin(2 * Math.PI * s.freq * t) : 0), { before } = found;
+    const courses = { reference: () => s.r, load: (t) => (t >= half - h / 1e6 ? s.d : 0), noise, points };
+    const program = before ? changingProgram({ ...before, low: s.low, high: s.high }, s, h, Math.round(steps / 2)) : programOf(s, h, placed);
+    const run = simulate(sampled, program, steps, courses);
     found.run = { ...run, stairs: true, span: steps * h, h };
     found.span = steps * h;
 }
@@ -166,7 +182,7 @@ function runProgram(s, found, h, placed = null) {
 // A loop that is sampled: its transfer function on the unit circle, its program on the exact process.
 function sampledLoop(s, found) {
     const h = s.h || found.time / 20, sampled = sample(found.process, h), { B, A, modes } = pulseTransfer(sampled);
-    const placed = s.kind === "rst" ? placement(s, h, B, A, found) : null;
+    const placed = s.kind === "rst" ? found.placed ?? placement(s, h, B, A, found) : null;
     const { R, S } = placed ?? pidPolynomials(programOf(s, h).state), circle = circleOf(R, S, B, A, modes);
     const count = circle.unstableRoots;
     Object.assign(found, {
@@ -174,9 +190,9 @@ function sampledLoop(s, found) {
         at: (w) => circle.at(w * h), last: Math.PI / h, noise: Math.abs(S[0]),
     });
     found.margins = found.stable ? { ...sampledMargins(circle, h), delay: undefined } : null;
-    found.poles = placed ? found.wanted : closedPoles(convolve(A, R), convolve(B, S), h);
+    found.poles = found.wanted ?? closedPoles(convolve(A, R), convolve(B, S), h);
     const slow = found.poles.filter((p) => p[0] < 0).map((p) => 1 / -p[0]);
-    const settle = slow.length && found.stable ? 5 * Math.max(...slow) : 4 * found.time;
+    const settle = slow.length && found.stable ? 3 * Math.max(...slow) + 2 * slow.slice(0, 3).reduce((a, b) => a + b) : 4 * found.time;
     found.span = nice(2.2 * (settle + 2 * found.process.delay));
     runProgram(s, found, h, placed);
     found.numbers = found.stable ? { peak: Math.max(...found.run.u.map(Math.abs)), rise: null, ...measured(s, found.run) } : null;

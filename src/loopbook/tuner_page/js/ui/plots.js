@@ -53,7 +53,8 @@ export class TimePlot {
         if (!run) return axes.part(0, 1).scales([0, 1], [0, 1]).grid({ xTicks: [], yTicks: [], label: main.result.error ?? "" });
         const runs = [...pins, main].filter((p) => p.result.run), xTicks = ticks(0, span, 6);
         const shownRuns = runs.filter((p) => p.result.stable || p === main);
-        let yRange = boundsOf([[0, s.r], ...shownRuns.map((p) => p.result.run.y), ...(band ? [band.low, band.high] : [])]);
+        const seen = s.wave && run.seen.length < 700 ? run.seen : [];
+        let yRange = boundsOf([[0, s.r], seen, ...shownRuns.map((p) => p.result.run.y), ...(band ? [band.low, band.high] : [])]);
         let uRange = boundsOf([[0], ...shownRuns.map((p) => p.result.run.u), ...[s.low, s.high].filter((x) => x !== null).map((x) => [x])]);
         if (!stable) {
             yRange = tamed(yRange, s.r);
@@ -62,9 +63,10 @@ export class TimePlot {
         axes.part(0, 0.6).scales([0, span], yRange).grid({ xTicks, yTicks: ticks(...yRange, 5), xLabels: false, label: names.y });
         axes.line([0, span], [s.r, s.r], { colour: colours.quiet, dash: "dash", width: 1 });
         if (band) axes.band(band.t, band.low, band.high, colours.band);
+        seen.forEach((y, i) => axes.mark(run.instants[i], y, "dot", colours.record, 1.8));
         for (const p of runs) axes.line(p.result.run.t, p.result.run.y, { ...p.style });
         axes.rule({ x: span / 2, colour: colours.frame, dash: "dot" });
-        axes.text(span / 2, yRange[0], "load", { colour: colours.quiet, dx: 4, dy: -9 });
+        axes.text(span / 2, yRange[0], main.result.before ? "new settings" : s.d ? "load" : "", { colour: colours.quiet, dx: 4, dy: -9 });
         if (!stable) axes.text(span, yRange[1], "unstable", { colour: colours.bad, align: "right", dx: -8, dy: 12 });
         this.yScale = axes.x;
         axes.part(0.645, 1).scales([0, span], uRange).grid({ xTicks, yTicks: ticks(...uRange, 3), label: `${names.u}; t in s` });

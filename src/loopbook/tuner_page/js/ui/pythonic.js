@@ -81,8 +81,8 @@ export function modelToml(s, given) {
 // What `loopbook code` and `loopbook tune` read.
 export function regulatorJson(s, given, h, name, placed) {
     const limits = { u_low: s.low, u_high: s.high }, lags = [s.T1, s.T2, s.T3].filter((T) => T !== 0);
-    const process = given ? { num: given.num.map((c) => c * s.K), den: given.den, delay: s.L }
-        : { gain: s.K, time_constants: lags, delay: s.L, integrating: s.integrating, ...(s.Tz ? { zero: s.Tz } : {}) };
+    const process = given ? { num: given.num.map((c) => c * s.K), den: given.den, "delay": s.L }
+        : { gain: s.K, time_constants: lags, "delay": s.L, integrating: s.integrating, ...(s.Tz ? { zero: s.Tz } : {}) };
     if (placed) return JSON.stringify({ name, process, form: "rst", R: placed.R, S: placed.S, T: placed.T, observer: placed.observer, h, limits }, null, 2);
     const { K, Ti, Td, Tf, b, c, Tt } = programSettings(s, h);
     const settings = { K, ...(Ti ? { Ti } : {}), Td, Tf, b, c, h, ...(Number.isFinite(Tt) ? { Tt } : Ti ? { anti_windup: "none" } : {}) };

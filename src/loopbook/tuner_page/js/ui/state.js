@@ -7,11 +7,12 @@ export const DEFAULTS = {
     form: "standard", Kc: 0.65, Ti: 45, Td: 0, N: 10, b: 1, c: 0,
     h: 0, low: null, high: null, windup: true,
     kind: "pid", speed: 0.1, damping: 0.7, rest: 0.1, observer: 0.3,
+    jump: false, smooth: true, wave: 0, freq: 1,
     r: 1, d: 0.5, uK: 0, uT: 0, uL: 20, closed: 0, margin: 60,
 };
 
 const WORDS = new Set(["form", "kind"]);
-const FLAGS = new Set(["integrating", "windup"]);
+const FLAGS = new Set(["integrating", "windup", "jump", "smooth"]);
 
 // The process as {num, den, delay, lags}; data.process: polynomials that no knob can make, times the gain K.
 export function processOf(s, given, change = {}) {

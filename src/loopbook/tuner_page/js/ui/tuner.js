@@ -32,10 +32,10 @@ export class Tuner {
         this.key = `tuner${number ? number + 1 : ""}:`;
         this.given = data.process ?? null;
         this.usual = { ...DEFAULTS, ...data.state };
-        for (const name of Object.keys(this.usual)) if (this.usual[name] === "inf") this.usual[name] = Infinity;
+        for (const knobs of [this.usual, ...(data.pins ?? [])]) for (const name of Object.keys(knobs)) if (knobs[name] === "inf") knobs[name] = Infinity;
         this.names = { y: data.names?.y || "output y", u: data.names?.u || "input u" };
         this.state = { ...this.usual };
-        this.pins = [];
+        this.pins = (data.pins ?? []).map((pin) => ({ state: { ...this.usual, ...pin } }));
         this.past = [];
         this.future = [];
         this.view = { right: "nyquist", low: "bode", record: false };
@@ -122,7 +122,8 @@ export class Tuner {
             process.append(folded("a third lag, a zero", ["T3", "Tz"], Boolean(usual.T3 || usual.Tz)));
         }
         if (this.data.record) boxes.append(this.toggle("the record behind", false, (on) => { this.view.record = on; this.later(); }));
-        process.append(...knobs(["uL"]), folded("if gain and lags are others", given ? ["uK"] : ["uK", "uT"], Boolean(usual.uK || usual.uT)), boxes);
+        process.append(...knobs(["uL"]), folded("if gain and lags are others", given ? ["uK"] : ["uK", "uT"], Boolean(usual.uK || usual.uT)),
+            folded("a sine on the measurement", ["wave", "freq"], Boolean(usual.wave)), boxes);
 
         this.formKnobs = h("div");
         this.form = h("select", { "aria-label": "form of the PID regulator", onchange: () => this.change({ form: this.form.value }) },
@@ -132,7 +133,9 @@ export class Tuner {
         this.rst = h("div", {}, ...knobs(["speed", "damping", "rest", "observer"]));
         const limits = h("div.lbt-two", {}, ...knobs(["low", "high", "r", "d"]));
         this.windup = this.check("anti-windup", "windup");
-        const regulator = h("fieldset.lbt-card", {}, h("legend", {}, "Regulator", this.kind), this.pid, this.rst, ...knobs(["h"]), limits, h("div.lbt-row", {}, this.windup));
+        this.jump = this.check("from pin 1 at half-time", "jump");
+        this.smooth = this.check("bumpless", "smooth");
+        const regulator = h("fieldset.lbt-card", {}, h("legend", {}, "Regulator", this.kind), this.pid, this.rst, ...knobs(["h"]), limits, h("div.lbt-row", {}, this.windup, this.jump, this.smooth));
         const side = h("div.lbt-side", {}, process, regulator);
 
         const grid = h("div.lbt-grid", {}, side, this.plotCard("time", "Responses", { time: TimePlot }, true),
@@ -161,8 +164,13 @@ export class Tuner {
 
     valueOf(name) {
         for (const form of Object.values(FORMS)) if (form.knobs.includes(name)) return form.read(this.state)?.[name] ?? this.state.Kc;
-        const around = { h: this.scale / 20, closed: this.scale, speed: this.state.speed, T2: this.state.T1, T3: this.state.T1, Tz: this.state.T1 };
+        const around = { h: this.scale / 20, wave: this.state.r / 5, closed: this.scale, speed: this.state.speed, T2: this.state.T1, T3: this.state.T1, Tz: this.state.T1 };
         return this.state[name] || around[name] || 1;
+    }
+
+    // What the plots of time show; for who cannot see it.
+    get run() {
+        return this.result.run;
     }
 
     get scale() {
@@ -353,9 +361,9 @@ export class Tuner {
     refresh() {
         const begun = performance.now(), { state, given } = this;
         this.colours = this.dark?.matches && !this.printing ? DARK : LIGHT;
-        const text = toText(state, DEFAULTS);
+        const before = this.pins[0]?.state, text = toText(state, DEFAULTS) + (state.jump && before ? toText(before, DEFAULTS) : "");
         if (this.evaluated !== text) {
-            this.result = evaluate(state, given);
+            this.result = evaluate(state, given, {}, { before });
             this.evaluated = text;
             this.band = null;
             this.worst = undefined;
@@ -380,11 +388,12 @@ export class Tuner {
         const run = () => {
             const begun = performance.now();
             if (circle) margins.delay = delayMargin(this.state, this.result);
-            const results = list.map((change) => evaluate(this.state, this.given, change)), { t } = this.result.run;
+            const same = { placed: this.result.placed, before: this.result.before };
+            const results = list.map((change) => evaluate(this.state, this.given, change, same)), { t } = this.result.run;
             const courses = results.filter((r) => r.run && r.stable).map((r) => resampled(r.run, t));
             this.band = { t, low: Float64Array.from(this.result.run.y), high: Float64Array.from(this.result.run.y) };
             for (const course of courses) course.forEach((y, i) => { this.band.low[i] = Math.min(this.band.low[i], y); this.band.high[i] = Math.max(this.band.high[i], y); });
-            const longer = this.state.uL > 0 && this.state.L > 0 ? evaluate(this.state, this.given, { L: this.state.L * (1 + this.state.uL / 100) }) : null;
+            const longer = this.state.uL > 0 && this.state.L > 0 ? evaluate(this.state, this.given, { L: this.state.L * (1 + this.state.uL / 100) }, same) : null;
             this.longer = longer;
             this.worst = longer ? (longer.stable ? longer.margins.Ms.value : null) : undefined;
             this.cost = performance.now() - begun;
@@ -421,6 +430,10 @@ export class Tuner {
         this.integrating?.show();
         this.windup.show();
         this.windup.hidden = state.low === null && state.high === null;
+        this.jump.show();
+        this.smooth.show();
+        this.jump.hidden = !this.pins.length || state.kind === "rst";
+        this.smooth.hidden = this.jump.hidden || !state.jump;
         if (state.kind === "rst" && this.kindShown !== "rst") this.view.right = "poles";
         this.kindShown = state.kind;
         this.formula.replaceChildren(this.data.formula ?? formulaOf(state));
@@ -516,7 +529,7 @@ const number = (x) => m("mn", shown(x, 4));
 
 // The transfer function as a formula.
 function formulaOf(s) {
-    const lag = (T) => (T === 0 ? [] : [m("mo", "("), m("mn", "1"), m("mo", T < 0 ? "−" : "+"), number(Math.abs(T)), m("mi", "s"), m("mo", ")")]);
+    const lag = (T) => (T === 0 ? [] : [m("mo", "("), m("mn", "1"), m("mo", T < 0 ? "−" : "+"), ...(Math.abs(T) === 1 ? [] : [number(Math.abs(T))]), m("mi", "s"), m("mo", ")")]);
     const below = [...(s.integrating ? [m("mi", "s")] : []), ...lag(s.T1), ...lag(s.T2), ...lag(s.T3)];
     const above = m("mrow", number(s.K), ...lag(s.Tz)), late = s.L ? [m("msup", m("mi", "e"), m("mrow", m("mo", "−"), number(s.L), m("mi", "s")))] : [];
     const math = m("math", m("mi", "G"), m("mo", "="), below.length ? m("mfrac", above, m("mrow", ...below)) : above, ...late);

@@ -28,6 +28,9 @@ export function summary(s, result, worst) {
     const parts = [`Stable and ${grade}: Ms ${shown(Ms.value)}.`];
     if (s.uL > 0 && s.L > 0 && worst !== undefined) parts.push(worst === null ? say("lost", s.uL) : say("longer", s.uL, worst));
     if (gainLow > 0) parts.push(say("conditional", gainLow, gain));
+    if (s.wave && result.circle && 2 * s.freq * result.h > 1) {
+        parts.push(say("alias", result.h, s.freq, Math.abs(s.freq - Math.round(s.freq * result.h) / result.h)));
+    }
     if (result.limited && result.run?.stairs && !result.circle) parts.push(say("limits", result.run.h));
     return parts.join(" ");
 }
