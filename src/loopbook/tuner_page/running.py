@@ -18,14 +18,14 @@ MOST_SAMPLES = 6000
 SAMPLES_OF_WAVE = 20
 
 
-def number(value: Any, none: float = math.inf) -> float:
+def number_of_data(value: Any, none: float = math.inf) -> float:
     """A number of the page's data, where "inf" is infinite and null is `none`."""
     return none if value is None else float(value)
 
 
 def program_settings(state: Mapping[str, Any], h: float) -> PidSettings:
     """The settings of the program that runs every h seconds."""
-    Ti, N, Td = number(state["Ti"]), number(state["N"]), state["Td"]
+    Ti, N, Td = number_of_data(state["Ti"]), number_of_data(state["N"]), state["Td"]
     return PidSettings(
         K=state["Kc"],
         Ti=Ti,
@@ -34,8 +34,8 @@ def program_settings(state: Mapping[str, Any], h: float) -> PidSettings:
         b=state["b"],
         c=state["c"],
         h=h,
-        u_low=number(state.get("low"), -math.inf),
-        u_high=number(state.get("high")),
+        u_low=number_of_data(state.get("low"), -math.inf),
+        u_high=number_of_data(state.get("high")),
         anti_windup="tracking" if state.get("windup", True) else "none",
     )
 
@@ -94,7 +94,7 @@ class _Changing:
         return float(self.pid.step(y, reference))
 
 
-def run(data: Mapping[str, Any], process: Process, horizon: float) -> Simulation:
+def run_program(data: Mapping[str, Any], process: Process, horizon: float) -> Simulation:
     """The run that the page shows: a set-point step, at half-time a load step or other settings."""
     s, first = data["state"], _first(data)
     wave, f = s.get("wave", 0.0), s.get("freq", 1.0)

@@ -17,7 +17,7 @@ from loopbook.pole_placement.place import place
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import simulate
-from loopbook.tuner_page.running import is_programmed, number, program_settings, rst_of, run
+from loopbook.tuner_page.running import is_programmed, number_of_data, program_settings, rst_of, run_program
 
 SIZE = (7.4, 3.5)
 
@@ -38,7 +38,7 @@ def process_of(data: Mapping[str, Any]) -> Process:
 def regulator_of(data: Mapping[str, Any]) -> PidStandard:
     """The PID regulator that the page's data stand for."""
     s = data["state"]
-    Ti, N = number(s["Ti"]), number(s["N"])
+    Ti, N = number_of_data(s["Ti"]), number_of_data(s["N"])
     filtered = {"N": N} if s["Td"] else {}
     return PidStandard(s["Kc"], Ti, s["Td"], b=s["b"], c=s["c"], **filtered)
 
@@ -102,12 +102,12 @@ def _responses(loop: Loop | SampledLoop, data: Mapping[str, Any]) -> list[tuple[
     """(t, y) and (t, u)."""
     s = data["state"]
     if is_programmed(data):
-        course = run(data, process_of(data), _horizon(Loop(loop.process, regulator_of(data))))
+        course = run_program(data, process_of(data), _horizon(Loop(loop.process, regulator_of(data))))
         return [(course.t, course.y), stairs(course.t, course.u)]
     if isinstance(loop, SampledLoop):
         steps = max(40, round(12 / (s["speed"] * s["h"])))
         load = [0.0 if k < steps // 2 else s["d"] for k in range(steps + 1)]
-        low, high = number(s.get("low"), -math.inf), number(s.get("high"))
+        low, high = number_of_data(s.get("low"), -math.inf), number_of_data(s.get("high"))
         course = simulate(
             loop.process, loop.regulator.controller(low, high), s["h"], steps, reference=s["r"], load=load
         )

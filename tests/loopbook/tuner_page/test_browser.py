@@ -8,6 +8,7 @@ import math
 import re
 import shutil
 import statistics
+from pathlib import Path
 
 import pytest
 
@@ -17,6 +18,7 @@ from loopbook.controllers.pid_forms import PidStandard
 from loopbook.tuner_page.page import page
 from loopbook.tuner_page.script import script
 from loopbook.tuner_page.settings import settings
+from loopbook.tuner_page.shown import complete
 from loopbook.tuner_page.still import still_svg
 from loopbook.tuner_page.widget import module
 
@@ -151,6 +153,20 @@ def test_numbers_are_typed_with_comma_or_point(opened):
     assert_numbers_are_pythons(tab)
     set_knob(tab, "Kc", "many")
     assert state(tab)["Kc"] == 0.8 and tab.locator('[data-knob="Kc"]').get_attribute("aria-invalid") == "true"
+
+
+def test_the_exercise_of_the_documentation_can_be_done(opened):
+    told = (Path(__file__).parents[3] / "docs" / "how-to" / "tuner.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| \w+ \| `(#tuner:\S+)` \| ([\d.]+) \|$", told, re.M)
+    assert len(rows) == 2
+    text = complete()[2]
+    for fragment, longer in rows:
+        tab = opened(text, fragment)
+        assert number(tab, "Ms") == "1.4" and f"20 % more dead time makes Ms {longer}." in tab.inner_text(".lbt-words")
+        loop = python_loop(tab)
+        assert loop.margins().Ms.value == pytest.approx(1.4, abs=5e-4)
+        later = loop.with_delay(0.2 * loop.process.delay).margins().Ms.value
+        assert later == pytest.approx(float(longer), abs=5e-3)
 
 
 def test_an_unstable_loop_is_drawn_as_such_and_has_no_settling_time(opened):
@@ -368,6 +384,12 @@ def test_the_widget_gives_its_state_back(opened):
     assert tab.said == [] and tab.evaluate("saved") is True
     given = tab.evaluate("model.get('state')")
     assert given["Kc"] == 0.9 and given["Ti"] == 45
+    pytest.importorskip("anywidget")
+    ours = lb.tuner(PROCESS, PID).widget()
+    assert ours.pid == PID
+    ours.set_state({"state": given})  # what JupyterLab sends
+    assert (ours.pid.K, ours.pid.Ti, ours.pid.Td, ours.pid.Tf) == (0.9, 45.0, 6.0, pytest.approx(0.6))
+    assert ours.loop.margins().Ms.value == pytest.approx(value(number(tab, "Ms")), rel=5.1e-4)
 
 
 def test_a_refresh_is_fast(opened, record_property):

@@ -262,7 +262,7 @@ def test_the_figure_runs_the_program_that_the_page_runs(ask, what, bumpless):
     assert running.is_programmed(data)
     page_run = ask(RUN, data["state"], data.get("pins", []))
     h = page_run["h"]
-    ours = running.run({**data, "state": {**data["state"], "h": h}}, process_of(data), page_run["span"])
+    ours = running.run_program({**data, "state": {**data["state"], "h": h}}, process_of(data), page_run["span"])
     assert page_run["u"] == pytest.approx(ours.u, abs=1e-9)
     assert page_run["seen"] == pytest.approx(ours.measured, abs=1e-9)
 
@@ -272,7 +272,7 @@ def test_new_settings_jump_where_nothing_is_done_about_it():
     assert data["state"]["jump"] and data["pins"][0]["Kc"] == 4.0
     moved = []
     for bumpless in (True, False):
-        course = running.run({**data, "state": {**data["state"], "smooth": bumpless}}, process_of(data), 30.0)
+        course = running.run_program({**data, "state": {**data["state"], "smooth": bumpless}}, process_of(data), 30.0)
         half = len(course.u) // 2
         moved.append(abs(course.u[half] - course.u[half - 1]))
     assert moved[0] < 1e-3 and moved[1] > 0.9
