@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from notebook_reports.export.write.page_fill import fills
+from tools.pages.page_fill import fills
 
 Row = tuple[str, float | str, str]
 REPORTS = Path(__file__).parents[1] / "reports"

@@ -10,6 +10,9 @@ BEGUN = time.perf_counter()
 
 
 def main(path: Path, form: str) -> dict[str, object]:
+    from notebook_reports.run.quick_imports import import_nbformat
+
+    import_nbformat()
     import nbformat
 
     from notebook_reports.export.errors import ExportError
@@ -43,9 +46,9 @@ def _words(notebook, page, form: str) -> dict[str, object]:
     import re
     from html import unescape
 
-    from notebook_reports.export.words import compare
-    from notebook_reports.export.write.page_words import in_the_text, outside, text_of
-    from notebook_reports.export.write.pdf_text import PdfText
+    from tools.pages.notebook_words import compare
+    from tools.pages.page_words import in_the_text, outside, text_of
+    from tools.pages.pdf_text import PdfText
 
     if form == "html":
         bare = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)

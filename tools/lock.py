@@ -16,6 +16,7 @@ WANTED = {
     ENVIRONMENT: ("pyproject.toml", "--extra", "reports", "--extra", "control", "--extra", "dev"),
     "tools/uv.txt": ("--group", "installer"),
     "locks/browser.txt": ("--group", "browser"),
+    "locks/cjk.txt": ("pyproject.toml", "--extra", "cjk"),
     "locks/cluster.txt": ("pyproject.toml", "--extra", "cluster"),
     "locks/docs.txt": ("pyproject.toml", "--extra", "docs"),
     "locks/interop.txt": ("--group", "interop"),

@@ -150,21 +150,26 @@ class Equation:
         }
 
 
-def equation(expression: Any, label: str = "", document: str = "") -> Equation:
+def equation(expression: Any, label: str = "", document: str = "", left: str = "") -> Equation:
     """Show a SymPy expression, an equality or LaTeX text as a displayed equation, a list of equalities as a column.
+
+    left: LaTeX of what an expression is.
 
     >>> import sympy
     >>> equation(sympy.Symbol("T_f") / 2, "4.8", "pid-report").latex
     '\\\\frac{T_{f}}{2}'
+    >>> equation(sympy.Symbol("h") / 2, left="T_f").latex
+    'T_f = \\\\frac{h}{2}'
     >>> equation([sympy.Eq(*sympy.symbols("a b")), sympy.Eq(*sympy.symbols("c d"))]).latex
     '\\\\begin{aligned}a &= b \\\\\\\\ c &= d\\\\end{aligned}'
     """
+    before = f"{left} = " if left else ""
     if isinstance(expression, str):
-        return Equation(expression, label, document)
+        return Equation(before + expression, label, document)
     import sympy
 
     if not isinstance(expression, list | tuple):
-        return Equation(sympy.latex(expression), label, document)
+        return Equation(before + sympy.latex(expression), label, document)
     lines = (f"{sympy.latex(law.lhs)} &= {sympy.latex(law.rhs)}" for law in expression)
     return Equation(r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}", label, document)
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-SOURCE = Path(__file__).parents[2] / "src"
+ROOT = Path(__file__).parents[2]
 WITH_EXAMPLES = sorted(
-    ".".join(path.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__")
-    for path in SOURCE.rglob("*.py")
+    ".".join(path.relative_to(top).with_suffix("").parts).removesuffix(".__init__")
+    for top, folder in ((ROOT / "src", ROOT / "src"), (ROOT, ROOT / "tools" / "pages"))
+    for path in folder.rglob("*.py")
     if ">>> " in path.read_text(encoding="utf-8")
 )
 

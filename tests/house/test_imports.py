@@ -30,7 +30,8 @@ def dotted(path: Path) -> str:
 MODULES = {dotted(path): path for path in sorted(SOURCE.rglob("*.py"))}
 
 
-def imports(module: str) -> Iterator[tuple[str, int, str]]:
+@cache
+def imports(module: str) -> tuple[tuple[str, int, str], ...]:
     """(imported module, line, the function around it or "") for each import, wherever it stands."""
 
     def within_node(node: ast.AST, function: str) -> Iterator[tuple[str, int, str]]:
@@ -45,7 +46,7 @@ def imports(module: str) -> Iterator[tuple[str, int, str]]:
             is_function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
             yield from within_node(child, getattr(child, "name", "lambda") if is_function else function)
 
-    return within_node(ast.parse(MODULES[module].read_text(encoding="utf-8")), "")
+    return tuple(within_node(ast.parse(MODULES[module].read_text(encoding="utf-8")), ""))
 
 
 @cache

@@ -151,8 +151,8 @@ def one_face(source):
 def short_and_narrow(source):
     for cell in code(source):
         lines = cell.text.splitlines()
-        if len(lines) > LINES:
-            yield f"cell {cell.number} has {len(lines)} lines; at most {LINES}"
+        if (count := len([line for line in lines if line.strip()])) > LINES:
+            yield f"cell {cell.number} has {count} lines; at most {LINES}"
         if (widest := max(map(len, lines), default=0)) > WIDTH:
             yield f"cell {cell.number} is {widest} wide; at most {WIDTH}"
 

@@ -117,7 +117,7 @@ class PolePlacement:
         """The system, a row for each of z^-1, z^-2, ..., as the coefficients of `law` are compared.
 
         >>> a, b, q = sp.symbols("a b q")
-        >>> place(1 + a / Z, b / Z, 1 - q / Z, fixed=integrators(1)).equations
+        >>> place_exactly(1 + a / Z, b / Z, 1 - q / Z, fixed=integrators(1)).equations
         [Eq(a + b*d_0 - 1, -q), Eq(-a + b*d_1, 0)]
         """
         left, right = (

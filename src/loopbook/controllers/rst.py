@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,8 @@ class PlacementError(LoopbookError):
 
 def _row(p: Polynomial, name: str) -> np.ndarray:
     try:
-        row = np.array([float(plain_number(c)) for c in np.atleast_1d(np.asarray(p, dtype=object))])
+        known = isinstance(p, list | tuple) and all(type(c) is float or type(c) is int for c in p)
+        row = np.array(p if known else [plain_number(c) for c in np.atleast_1d(np.asarray(p, dtype=object))], float)
     except (TypeError, OverflowError):
         row = np.zeros(0)
     if row.ndim != 1 or not row.size or not np.isfinite(row).all():
@@ -51,9 +53,11 @@ def zeros_of(p: Polynomial) -> np.ndarray:
     >>> zeros_of([1, -2, 1])
     array([1.+0.j, 1.+0.j])
     """
-    rest, ones = np.trim_zeros(np.asarray(p, dtype=float), "f"), 0
-    while len(rest) > 1 and abs(rest.sum()) <= CANCELLED * np.abs(rest).sum():
-        rest, ones = np.cumsum(rest)[:-1], ones + 1
+    rest, ones = np.asarray(p, dtype=float).tolist(), 0
+    while rest and not rest[0]:
+        rest = rest[1:]
+    while len(rest) > 1 and abs(sum(rest)) <= CANCELLED * sum(map(abs, rest)):
+        rest, ones = list(accumulate(rest))[:-1], ones + 1
     return np.append(np.ones(ones), np.roots(rest)).astype(complex)
 
 

@@ -10,6 +10,7 @@ from loopbook.design.speed import Speed
 from loopbook.design.study import Study
 from loopbook.identification.choice import Identified
 from loopbook.plots.curves import COLOURS, STYLES, curves
+from loopbook.plots.legend import legend_below
 from loopbook.response.simulation import Simulation
 from notebook_reports import display
 from notebook_reports.display import figure
@@ -46,7 +47,7 @@ def record(found: Identified) -> "Figure":
     axes[0].plot(log.time, log.y - fit.residuals, color=COLOURS[0], label=f"{fit.structure.name}, {fit.fit:.1f} %")
     axes[0].set_ylabel(_label(log.output_name, log.output_unit))
     axes[0].set_title("The record and the model fitted to it")
-    axes[0].legend(fontsize="small")
+    legend_below(fig, axes[0])
     axes[1].plot(log.time, fit.residuals, color=COLOURS[1], linewidth=0.8)
     axes[1].set_ylabel("residual")
     axes[2].step(log.time, log.u, where="post", color=COLOURS[2])

@@ -11,7 +11,7 @@ class ExactResponse:
     """The unit step response of the rational part of a stable process, from t = 0 to the horizon [s]."""
 
     def __init__(self, process: Process, horizon: float):
-        self._y = open_loop_step(process.rational, horizon)
+        self._y = open_loop_step(process, horizon)
 
     def value(self, t: float) -> float:
         """y(t)."""

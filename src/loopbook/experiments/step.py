@@ -36,7 +36,7 @@ def step_data(process: Process) -> StepData:
     gain = process.static_gain
     if gain < 0:
         raise ExperimentError(f"the gain is {gain:.4g}: negative; turn the sign of the process and of u")
-    response = ExactResponse(process, settling_horizon(process.rational, 6.0))
+    response = ExactResponse(process, settling_horizon(process, 6.0))
     t, slope = response.steepest()
     tangent, T63 = t - response.value(t) / slope, response.reaches(REACHED * gain)
     L = process.delay + (tangent if tangent > KNOWN * T63 else 0.0)

@@ -195,11 +195,11 @@ class Loop:
 
 
 def _left(signals: Sequence[Signal], finals: Sequence[float]) -> float:
-    """How far from its final value a signal ends, as a part of its size: the worst of them."""
+    """How far from its final value a signal ends, as a part of the largest mean of a cell: the worst of them."""
     left = 0.0
     for signal, final in zip(signals, finals, strict=True):
-        size = max(abs(final), float(np.abs(signal.coefficients).sum(axis=1).max()))
-        left = max(left, abs(float(signal(signal.end)) - final) / size if size else 0.0)
+        size = max(abs(final), float(np.abs(signal.coefficients[:, 0]).max()))
+        left = max(left, abs(float(signal.coefficients[-1].sum()) - final) / size if size else 0.0)
     return left
 
 

@@ -23,7 +23,7 @@ from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
 
 BORDER = 1e-9
-FEW, CROWDED = 40, 0.05
+LONGEST, ROUNDED = 40, 4 * float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -77,10 +77,7 @@ class SampledLoop:
     def poles(self) -> np.ndarray:
         """The zeros of A R + B S, the loop's poles in the z plane; those at the origin left out."""
         n, d = self.transfer
-        total = np.zeros(max(len(n), len(d)))
-        total[: len(n)] += n
-        total[: len(d)] += d
-        return np.roots(total).astype(complex)
+        return np.roots(_sum(n, d)).astype(complex)
 
     @cached_property
     def is_stable(self) -> bool:
@@ -90,10 +87,9 @@ class SampledLoop:
         of the loop transfer, which needs no root of a long polynomial.
         """
         n, d = self.transfer
-        if len(d) + len(n) <= FEW:
-            largest = float(abs(self.poles).max(initial=0.0))
-            if abs(largest - 1) > CROWDED:
-                return largest < 1
+        certain = _inside(_sum(n, d), float(_sum(abs(n), abs(d)).max()))
+        if certain is not None:
+            return certain
         if not n.any():
             return bool((abs(self.on_circle.poles) < 1 - BORDER).all())
         try:
@@ -158,3 +154,34 @@ class SampledLoop:
             raise LoopError(f"source = {source!r}; one of reference, load, noise, output")
         unit: dict[str, Any] = {source: 1.0}
         return simulate(self.process, self.regulator.controller(low, high), self.regulator.h, steps, **unit)
+
+
+def _sum(n: np.ndarray, d: np.ndarray) -> np.ndarray:
+    total = np.zeros(max(len(n), len(d)))
+    total[: len(n)] += n
+    total[: len(d)] += d
+    return total
+
+
+def _inside(p: np.ndarray, size: float) -> bool | None:
+    """Do all roots lie in the unit circle, by Schur's and Cohn's recursion? None where rounding leaves that open, or
+    where the polynomial is long.
+
+    p: descending coefficients; size: what they are made of at most, so that their rounding is a fraction of that.
+    """
+    if len(p) > LONGEST:
+        return None
+    row, error = p.tolist(), ROUNDED * size
+    while len(row) > 1:
+        largest = max(map(abs, row))
+        if abs(row[0]) <= error:
+            return None
+        k = row[-1] / row[0]
+        of_k = error * (1 + abs(k)) / (abs(row[0]) - error)
+        if abs(abs(k) - 1) <= of_k + ROUNDED:
+            return None
+        if abs(k) > 1:
+            return False
+        row = [a - k * b for a, b in zip(row[:-1], row[:0:-1], strict=True)]
+        error = error * (1 + abs(k) + of_k) + (of_k + ROUNDED) * largest
+    return True

@@ -46,7 +46,7 @@ def ultimate(process: Process) -> FrequencyPoint:
     7.23
     """
     transfer, start = upright(process)
-    if not transfer.zeros.size and (transfer.poles.imag == 0).all() and (transfer.poles.real <= 0).all():
+    if not transfer.zeros.size and (abs(transfer.poles.imag) <= -transfer.poles.real).all():
         w = frequency_at(process, -math.pi)  # phase and magnitude fall all the way: the first is the only one
         return FrequencyPoint(float(transfer.magnitude(w)), w)
     first = first_passing(transfer, _odd_turns)

@@ -20,7 +20,7 @@ DEGREE = 24
 REACH = 8.0
 MOST_CELLS = 200_000
 MANY_STATES = 9  # beyond, p systems of n cost less than one of p n
-SLIVER = 1e-9  # of the whole: a last cell so short joins the one before
+SLIVER = 0.02  # of the cell before: a last cell so short joins it
 
 
 class ResponseError(LoopbookError):
@@ -101,8 +101,8 @@ def graded_mesh(A: np.ndarray, length: float) -> np.ndarray:
     """Cells on [0, length]: as long as the fastest mode that has not yet died out allows."""
     modes = np.linalg.eigvals(A) if len(A) else np.zeros(0)
     modes = modes[abs(modes) > 0]
-    edges = [0.0]
-    while edges[-1] < length * (1 - SLIVER):
+    edges, step = [0.0], 0.0
+    while length - edges[-1] > SLIVER * (step or length):
         alive = abs(modes[-modes.real * edges[-1] < 40])
         step = REACH / alive.max() if alive.size else length
         if len(edges) > MOST_CELLS:
@@ -112,19 +112,23 @@ def graded_mesh(A: np.ndarray, length: float) -> np.ndarray:
     return np.array(edges)
 
 
-def cell_operator(system: DelayEquation, length: float) -> np.ndarray:
-    """X at the nodes as a linear map of (x at the start, v at the nodes, 1): shape (p, n, n + p + 1)."""
+def cell_operator(system: DelayEquation, length: float, driven: bool = True) -> np.ndarray:
+    """X at the nodes as a linear map of (x at the start, v at the nodes, 1): shape (p, n, n + p + 1).
+
+    driven: False leaves v out, where there is none: shape (p, n, n + 1).
+    """
     _, a, _ = radau()
     n, p = len(system.A), DEGREE
     integral = length * a
-    right = np.empty((p, n, n + p + 1))
+    right = np.zeros((p, n, n + p * driven + 1))
     right[:, :, :n] = np.eye(n)
-    right[:, :, n:-1] = integral[:, None, :] * system.b[:, None]
+    if driven:
+        right[:, :, n:-1] = integral[:, None, :] * system.b[:, None]
     right[:, :, -1] = integral.sum(axis=1)[:, None] * system.e
     if n > MANY_STATES:
         return _node_by_node(system.A, length, right)
     matrix = np.eye(p * n) - (integral[:, None, :, None] * system.A[:, None, :]).reshape(p * n, p * n)
-    return np.linalg.solve(matrix, right.reshape(p * n, n + p + 1)).reshape(p, n, n + p + 1)
+    return np.linalg.solve(matrix, right.reshape(p * n, right.shape[2])).reshape(right.shape)
 
 
 @cache
@@ -148,13 +152,18 @@ def _node_by_node(A: np.ndarray, length: float, right: np.ndarray) -> np.ndarray
 
 
 def outputs(system: DelayEquation, G: np.ndarray) -> np.ndarray:
-    """Each output at the start and the nodes of a cell, then x at its end, as a map of x, of v there, and of 1."""
-    n, p = len(system.A), DEGREE
-    states = np.zeros((p + 1, n, n + p + 2))
+    """Each output at the start and the nodes of a cell, then x at its end, as a map of x, of v there, and of 1.
+
+    Of x and 1 alone where G is of a cell that is not driven.
+    """
+    n, p, driven = len(system.A), DEGREE, G.shape[2] > len(system.A) + 1
+    states = np.zeros((p + 1, n, G.shape[2] + driven))
     states[0, :, :n] = np.eye(n)
-    states[1:, :, :n], states[1:, :, n + 1 : n + 1 + p], states[1:, :, -1] = G[:, :, :n], G[:, :, n:-1], G[:, :, -1]
+    states[1:, :, :n], states[1:, :, -1] = G[:, :, :n], G[:, :, -1]
+    if driven:
+        states[1:, :, n + 1 : -1] = G[:, :, n:-1]
     values = (system.C @ states).transpose(1, 0, 2)
-    for q in range(p + 1):
+    for q in range(p + 1 if driven else 0):
         values[:, q, n + q] += system.D
     values[:, :, -1] += system.f[:, None]
-    return np.vstack([values.reshape(-1, n + p + 2), states[-1]])
+    return np.vstack([values.reshape(-1, states.shape[2]), states[-1]])

@@ -40,6 +40,14 @@ def nodes_of(count: int, density: int) -> tuple[np.ndarray, np.ndarray, np.ndarr
 
 
 @cache
+def slopes_of(count: int) -> np.ndarray:
+    """The matrix from Legendre coefficients to those of the derivative, as many."""
+    matrix = np.zeros((count, count))
+    matrix[: max(count - 1, 1)] = legendre.legder(np.eye(count))
+    return matrix
+
+
+@cache
 def sampling(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Gauss nodes and the matrix from values there to Legendre coefficients, exact below degree `count`."""
     nodes = legendre.leggauss(count)[0]

@@ -32,10 +32,10 @@ def _march(system: DelayEquation, mesh: np.ndarray, segments: int) -> tuple[np.n
     """Values of all outputs at every start and node: shape (segments, cells, m, p + 1); and x at the end."""
     n, size = len(system.A), len(system.C) * (DEGREE + 1)
     keys = [float(f"{length:.13g}") for length in np.diff(mesh)]
-    maps = {key: outputs(system, cell_operator(system, key)) for key in set(keys)}
+    maps = {key: outputs(system, cell_operator(system, key, segments > 1)) for key in set(keys)}
     along = [maps[key] for key in keys]
     rows = np.empty((segments, len(keys), size + n))
-    known = np.zeros(n + DEGREE + 2)
+    known = np.zeros(n + (DEGREE + 1) * (segments > 1) + 1)
     x, before, v, known[-1] = known[:n], np.zeros(n), known[n:-1], 1.0
     for k in range(segments):
         for i, operator in enumerate(along):

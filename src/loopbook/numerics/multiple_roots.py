@@ -5,15 +5,38 @@ no power of two scatters them otherwise. Roots that lie together are taken as on
 with that root is the given one to rounding: then no computation with these coefficients could tell them apart.
 """
 
+import math
 from collections.abc import Sequence
+from itertools import combinations
 
 import numpy as np
 
 LINKS = (0.6, 0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-4, 1e-6)
-"""How far apart, relative to their size, neighbours in a group may lie: tried in this order."""
+"""How far apart, relative to their size, neighbours in a group may lie: tried in this order, less than the widest."""
 ROUNDED = 4 * float(np.finfo(float).eps)
-REAL = 1e-9
+RANGE, REAL = 1e3 * float(np.finfo(float).eps), 1e-9
 STEPS = 4
+
+
+def roots_of(p: Sequence[float]) -> np.ndarray:
+    """All roots, complex, multiple ones together; by formula up to the second degree.
+
+    >>> roots_of([1.0, 3.0, 2.0]).real.tolist(), roots_of([1.0, 2.0, 1.0]).real.tolist()
+    ([-2.0, -1.0], [-1.0, -1.0])
+    """
+    if len(p) == 2:
+        return np.array([-p[1] / p[0]], dtype=complex)
+    if len(p) != 3 or not p[2]:
+        return put_together(p, np.roots(p))
+    a, half, c = p[0], p[1] / 2, p[2]
+    square = half * half - a * c
+    if abs(square) <= ROUNDED * max(half * half, abs(a * c)):
+        return np.full(2, -half / a, dtype=complex)
+    if square < 0:
+        pair = complex(-half / a, math.sqrt(-square) / abs(a))
+        return np.array([pair, pair.conjugate()])
+    large = -half - math.copysign(math.sqrt(square), half)
+    return np.array([large / a, c / large], dtype=complex)
 
 
 def put_together(p: Sequence[float], roots: np.ndarray) -> np.ndarray:
@@ -26,14 +49,16 @@ def put_together(p: Sequence[float], roots: np.ndarray) -> np.ndarray:
     [(-1+0j), (-2+0j)]
     """
     roots = np.asarray(roots, dtype=complex)
+    listed = [r for r in roots.tolist() if r]
+    widest = 4 * RANGE ** (1 / max(len(listed), 1))  # rounding scatters no farther
+    if not any(abs(a - b) <= widest * abs(a) for a, b in combinations(listed, 2)):
+        return roots
     some = roots[roots != 0]
     size, apart = abs(some), abs(some[:, None] - some[None, :])
-    if len(some) < 2 or (apart > LINKS[0] * size).sum() == len(some) * (len(some) - 1):
-        return roots
     given = np.trim_zeros(np.asarray(p, dtype=float), "b")
     width = abs(given[0]) * np.poly(-size)
     found, joined = some, np.arange(len(some))
-    for link in LINKS:
+    for link in (widest, *(link for link in LINKS if link < widest)):
         groups = _groups(apart <= link * size, joined)
         for chosen in (
             [groups, *([group] for group in groups)] if groups else []

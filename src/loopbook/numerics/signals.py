@@ -16,8 +16,9 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from derivations.errors import LoopbookError
-from loopbook.numerics.legendre_series import keeps_sign, nodes_of, sampling, series
+from loopbook.numerics.legendre_series import keeps_sign, nodes_of, sampling, series, slopes_of
 
+ROUNDED = 2 * float(np.finfo(float).eps)
 QUIET, STILL, ROUNDING = 1e-13, 1e-11, 2e-15  # parts of a signal's largest value
 DENSITIES = (2, 16, 128)  # nodes per coefficient of a cell
 
@@ -129,9 +130,7 @@ class Signal:
 
     def derivative(self) -> "Signal":
         """The derivative inside the cells; jumps at edges leave no trace."""
-        if self.coefficients.shape[1] == 1:
-            return Signal(self.edges, np.zeros_like(self.coefficients))
-        slopes = legendre.legder(self.coefficients, axis=1)
+        slopes = self.coefficients @ slopes_of(self.coefficients.shape[1]).T
         return Signal(self.edges, slopes * (2 / self.lengths)[:, None])
 
     @property
@@ -170,16 +169,21 @@ class Signal:
     def _bracketed(self, cell: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """The zeros in the brackets, as x in [-1, 1], by Newton's method kept inside them."""
         c = np.moveaxis(self.coefficients[cell], -1, 0)
-        slopes = legendre.legder(c)
-        rising = series(c, high) > series(c, low)
-        x = (low + high) / 2
+        slopes, rounding = slopes_of(len(c)) @ c, ROUNDED * np.abs(c).sum(axis=0)
+        both = np.stack([c, slopes], axis=1)
+        first, last = series(c, low), series(c, high)
+        rising = last > first
+        with np.errstate(divide="ignore", invalid="ignore"):
+            x = low + (high - low) * first / (first - last)
+        x = np.where((x > low) & (x < high), x, (low + high) / 2)
         for _ in range(60):
-            value = series(c, x)
+            value, slope = (series(c, x), series(slopes, x)) if x.size == 1 else series(both, x)
             above = (value > 0) == rising
             low, high = np.where(above, low, x), np.where(above, x, high)
             with np.errstate(divide="ignore", invalid="ignore"):
-                newton = x - value / series(slopes, x)
+                newton = x - value / slope
             after = np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
+            after = np.where(np.abs(value) <= rounding, x, after)
             moved, x = np.abs(after - x).max(initial=0.0), after
             if moved < 1e-15:
                 break
@@ -196,7 +200,7 @@ class Signal:
             trimmed = legendre.legtrim(row, 1e-16 * np.abs(row).max())
             x = np.atleast_1d(legendre.legroots(trimmed))
             x = x[(abs(x.imag) < 1e-7) & (abs(x.real) <= 1 + 1e-10)].real
-            slope = legendre.legder(trimmed) if len(trimmed) > 1 else np.zeros(1)
+            slope = slopes_of(len(trimmed)) @ trimmed
             for _ in range(2):
                 rise = legendre.legval(x, slope)
                 safe = np.where(rise == 0, np.inf, rise)

@@ -27,11 +27,12 @@ def balancing(matrix: np.ndarray) -> np.ndarray:
 
     Entries below 1e-40 of the largest count as zero: to balance them would scale everything else out of range.
     """
-    from scipy.linalg import matrix_balance
+    from scipy.linalg.lapack import dgebal
 
     size = np.abs(matrix).max(initial=0.0)
     kept = np.where(np.abs(matrix) > 1e-40 * size, matrix, 0.0)
-    return matrix_balance(kept, permute=False, separate=True)[1][0]
+    scale: np.ndarray = dgebal(kept, scale=1, permute=0)[3]
+    return scale
 
 
 def _as_if_no_integrator(a: np.ndarray) -> np.ndarray:
@@ -65,8 +66,10 @@ def observer_form(den: Sequence[float], nums: Sequence[Sequence[float]], span: f
     A[:, :1] -= a[1:, None] if n else 0.0
     C = np.eye(1, n)
     if n:
-        loop = A.copy()
-        loop[:, 0] -= _as_if_no_integrator(a)[1:] - a[1:]
+        loop = A
+        if not a[-1]:
+            loop = A.copy()
+            loop[:, 0] = -_as_if_no_integrator(a)[1:]
         scale = balancing(loop)
         if span:
             steps = np.maximum(scale[1:] / scale[:-1], power_of_two(time / span))

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+from loopbook.plots.legend import legend_below, legend_beside
+
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)))
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """A palette that stays apart for colour-blind readers; the line styles stay apart in print."""
@@ -34,9 +36,11 @@ def curves(
 
     if not panels:
         raise ValueError("curves needs at least one panel: {'y [m]': {'name': (t, y)}}")
+    named = [[n for n in lines if not n.startswith("_")] if len(lines) > 1 else [] for lines in panels.values()]
+    one_for_all = len({tuple(names) for names in named if names}) == 1
     size = (6.3, height or (3.0 if len(panels) == 1 else 4.4))
     fig, axes = plt.subplots(len(panels), 1, figsize=size, sharex=True, squeeze=False, layout="constrained")
-    for axis, (label, lines) in zip(axes[:, 0], panels.items(), strict=True):
+    for axis, names, (label, lines) in zip(axes[:, 0], named, panels.items(), strict=True):
         for i, (name, (across, up)) in enumerate(lines.items()):
             points = name.startswith("o ")
             how = {"marker": "o", "linestyle": "none"} if points else {"linestyle": STYLES[i % len(STYLES)]}
@@ -46,10 +50,12 @@ def curves(
             axis.axvline(instant, color="0.6", linewidth=0.8, linestyle=":")
         axis.set_ylabel(label)
         axis.grid(True, linewidth=0.4, alpha=0.5)
-        if any(not name.startswith("_") for name in lines) and len(lines) > 1:
-            axis.legend(fontsize="small")
+        if names and not one_for_all:
+            legend_beside(axis)
     for level in levels:
         axes[0, 0].axhline(level, color="0.6", linewidth=0.8, linestyle=":")
     axes[0, 0].set_title(title)
     axes[-1, 0].set_xlabel(x)
+    if one_for_all:
+        legend_below(fig, next(axis for axis, names in zip(axes[:, 0], named, strict=True) if names))
     return fig

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loopbook.plots.curves import COLOURS, STYLES
+from loopbook.plots.legend import legend_below
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,7 +44,7 @@ def bode_figure(curves: Mapping[str, Curve], title: str) -> "Figure":
         (curve,) = curves.values()
         _draw_margins(axes, curve)
     else:
-        axes[0].legend(fontsize="small")
+        legend_below(fig, axes[0])
     axes[0].set_ylabel("gain")
     axes[1].set_ylabel("phase [°]")
     axes[1].yaxis.set_major_locator(plt.MaxNLocator(steps=[1, 1.5, 3, 4.5, 9]))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loopbook.plots.curves import COLOURS, STYLES
+from loopbook.plots.legend import legend_below
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,6 +32,6 @@ def nyquist_figure(
     axis.set_xlabel("real part of $L(i\\omega)$ [1]")
     axis.set_ylabel("imaginary part of $L(i\\omega)$ [1]")
     axis.grid(True, linewidth=0.4, alpha=0.5)
-    axis.legend(fontsize="small", loc="lower left")
+    legend_below(fig, axis)
     axis.set_title(title)
     return fig

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 LARGEST = 300.0
 LOST = 1e5
-MANY = 2
+MANY, FAST = 4, 4.0  # so few lags cancel only where one of them dies out within a few intervals
 PLACES = 64
 LEAST = 745.0  # exp(-LEAST) is the least number above zero
 
@@ -77,24 +77,22 @@ class SampledProcess:
     @cached_property
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
         """(B, A) with y = B/A u, coefficients of z^0, z^-1, ...; A starts with 1, B with the zeros of the delay."""
-        if self.exact is not None:
-            B, A, _ = self.exact
-        else:
-            A = self._denominator
-            B = _numerator(A, self._markov)[: len(A) + bool(self.tau)]
+        B, A = self._rounded if self.exact is None else self.exact[:2]
         return np.concatenate([np.zeros(self.whole), B]), A
 
     @cached_property
-    def _denominator(self) -> np.ndarray:
-        return np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h))))
+    def _rounded(self) -> tuple[np.ndarray, np.ndarray]:
+        A = np.atleast_1d(np.real(np.poly(np.exp(self.process.poles * self.h))))
+        return _numerator(A, self._markov)[: len(A) + bool(self.tau)], A
 
     @cached_property
     def exact(self) -> "tuple[np.ndarray, np.ndarray, np.ndarray] | None":
         """`exact_polynomials`, where B's coefficients would cancel nearly all digits of what they are made of."""
-        if self.process.order < MANY:
+        fastest = float(abs(self.process.poles).max(initial=0.0)) * self.h
+        if self.process.order < 2 or (self.process.order < MANY and fastest < FAST):
             return None
-        B = _numerator(self._denominator, self._markov)[: self.process.order + (2 if self.tau else 1)]
-        added = _numerator(abs(self._denominator), abs(self._markov))[: len(B)]
+        B, A = self._rounded
+        added = _numerator(abs(A), abs(self._markov))[: len(B)]
         cancel = (abs(B) * LOST < added).any()
         return exact_polynomials(self.process, self.h, self.tau) if cancel else None
 

@@ -17,7 +17,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.extras import needed
 from loopbook.numerics import horner, polynomial_text
-from loopbook.numerics.multiple_roots import put_together
+from loopbook.numerics.multiple_roots import roots_of
 from loopbook.numerics.real_numbers import in_a_sentence, plain_number, positive, real
 from loopbook.numerics.step_response import open_loop_step
 from loopbook.numerics.units import characteristic_time, in_units
@@ -64,8 +64,7 @@ def _row(values: Any, name: str) -> list[float]:
 
 def _roots(p: Sequence[float]) -> np.ndarray:
     time = characteristic_time((1.0,), p, 0.0)
-    inside = in_units(p, time)
-    return put_together(inside, np.roots(inside)) / time
+    return roots_of(in_units(p, time)) / time
 
 
 @dataclass(frozen=True)

@@ -182,9 +182,10 @@ def _second_touch(
     from scipy.optimize import brentq
 
     for _ in range(5):
-        if least_room(process, low, near, M)[0] <= 0:
+        at_low, near = least_room(process, low, near, M)
+        if at_low <= 0:
             low, high = start, low
-        room = lambda x: least_room(process, x, near, M)[0]  # noqa: E731, B023
+        room = lambda x: least_room(process, x, near, M, known=True)[0]  # noqa: E731, B023
         if not room(low) > 0 > room(high):
             return _bisected(process, scale, start, high, M)
         w = float(brentq(room, low, high, xtol=1e-15 * low, rtol=1e-13))

@@ -21,7 +21,7 @@ from loopbook.tuning.migo_branch import circle, smooth_branch
 
 WIDTH = 1.1
 TURN = 1.0  # what a search window may hold of the dead time's phase, in rad
-ZOOMS, MOST = 5, 40
+SIDE, ZOOM, MOST = 10, 20, 60
 SMALL, NEAR = 0.3, 0.5
 
 
@@ -40,24 +40,28 @@ def room_beside(process: Process, w: float, x: np.ndarray, M: float) -> np.ndarr
     return w**2 * np.where(abs(d) < NEAR * w, beside, far)
 
 
-def least_room(process: Process, w: float, near: float, M: float) -> tuple[float, float]:
-    """The least value of `room_beside` in the valley that `near` lies in, and where: by zooming in, and a parabola."""
+def least_room(process: Process, w: float, near: float, M: float, known: bool = False) -> tuple[float, float]:
+    """The least value of `room_beside` in the valley that `near` lies in, and where: by zooming in, and a parabola.
+
+    known: `near` is the lowest place for a touch close to w.
+    """
     width = min(np.log(WIDTH), TURN / (process.delay * near) if process.delay else np.inf)
-    centre = near
-    left_to_zoom = ZOOMS
+    centre, width = near, width / ZOOM if known else width
     for _ in range(MOST):
-        x = centre * np.exp(np.linspace(-width, width, 41))
+        x = centre * np.exp(np.linspace(-width, width, 2 * SIDE + 1))
         room = room_beside(process, w, x, M)
-        i = int(np.clip(room.argmin(), 1, 39))
-        centre = float(x[i])
-        if left_to_zoom == ZOOMS and room.argmin() in (0, 40):
-            continue  # down the valley first
-        left_to_zoom, width = left_to_zoom - 1, width / 8
-        if not left_to_zoom:
-            break
-    left, middle, right = room[i - 1 : i + 2]
-    bend = left - 2 * middle + right
-    return float(middle - (right - left) ** 2 / (8 * bend) if bend > 0 else middle), centre
+        i = int(room.argmin())
+        if i in (0, 2 * SIDE):  # down the valley first
+            centre = float(x[i])
+            continue
+        left, middle, right = room[i - 1 : i + 2]
+        bend = left - 2 * middle + right
+        shift = (left - right) / (2 * bend) if bend > 0 else 0.0
+        centre = float(x[i] * np.exp(shift * width / SIDE))
+        if known:
+            return float(middle - (right - left) ** 2 / (8 * bend) if bend > 0 else middle), centre
+        known, width = True, width / ZOOM
+    return float(room.min()), centre
 
 
 Differences = tuple[Any, Any, Any, Any, Any]

@@ -272,7 +272,11 @@ class Document:
             }
             records.append(LedgerRow("misprint", self.id, item.place, id, verdict, fields))
         heads = ["place", "printed", "correct", "what is wrong", "misleads", "proof"]
-        caption = caption or captions.of_misprints([row[0] for row in rows], [row[4] == "yes" for row in rows])
+        places, misleading = [row[0] for row in rows], [row[4] == "yes" for row in rows]
+        if not caption:
+            caption = captions.of_misprints(places, misleading)
+            if len(set(misleading)) == 1:  # the caption says it of all
+                heads, rows = [*heads[:4], heads[5]], [[*row[:4], row[5]] for row in rows]
         if not self.compare:
             records, marks = [], []
         anchors = [f"misprint-{id}" for id in found]

@@ -81,10 +81,12 @@ def index_page(
 def headline(counts: Sequence[Count], found: Sequence[LedgerRow]) -> list[tuple[str, str]]:
     """The largest numbers of all, each with what it counts."""
     whole = total(counts)
-    names = {"value": "printed numbers computed again", "claim": "statements put to the test"}
-    rows = [(str(whole.printed[table]), name) for table, name in names.items() if whole.printed[table]]
-    wrong = errata(found)
-    return [*rows, (str(len(wrong)), "errors found in the documents")] if wrong else rows
+    counted = (
+        (whole.printed["value"], "printed number", "computed again"),
+        (whole.printed["claim"], "statement", "put to the test"),
+        (len(errata(found)), "error", "found in the documents"),
+    )
+    return [(str(n), f"{what}{'s' if n > 1 else ''} {done}") for n, what, done in counted if n]
 
 
 def chips(verdicts: Mapping[str, Mapping[str, int]]) -> list[tuple[str, list[tuple[str, str]]]]:

@@ -24,6 +24,7 @@ from jupyter_client.asynchronous import AsyncKernelClient
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
 from jupyter_client.provisioning.local_provisioner import LocalProvisioner
+from nbclient.exceptions import DeadKernelError
 from papermill.clientwrap import PapermillNotebookClient
 from traitlets import Type
 
@@ -90,7 +91,7 @@ class ReadyClient(AsyncKernelClient):
             except Empty:
                 pass
             if not await self._async_is_alive():
-                raise RuntimeError("the kernel died before it was ready")
+                raise DeadKernelError("the kernel died before it was ready")
             if time.monotonic() > ends:
                 raise RuntimeError(f"the kernel was not ready after {timeout:g} s")
 

@@ -204,7 +204,8 @@ def _ended(error: Exception, timeout: float) -> str:
     if isinstance(error, CellTimeoutError):
         return f"not finished after {timeout:g} s (--timeout sets the limit)"
     if isinstance(error, DeadKernelError):
-        return "the kernel died (killed, out of memory, or ended by the cell)"
+        early = str(error).startswith("the kernel died")
+        return str(error) if early else "the kernel died (killed, out of memory, or ended by the cell)"
     return f"{type(error).__name__}: {str(error).strip() or 'no message'}".splitlines()[0]
 
 

@@ -9,6 +9,8 @@ from derivations.experiments import describing_function, double_pulse, reaction_
 from derivations.loop import robustness
 from derivations.tuning import amigo, amigo_integrating, letters
 
+pytestmark = pytest.mark.long
+
 
 def test_double_pulse_extremes_give_the_process_back():
     found, estimate = double_pulse.extremes(), double_pulse.estimate()

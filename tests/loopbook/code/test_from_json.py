@@ -84,6 +84,7 @@ def test_the_scaling_goes_through_both_ends():
     assert "_measurement(lb_real" not in bare["heater.h"]
 
 
+@pytest.mark.builds
 def test_the_json_beside_the_notebook_is_that_of_its_record():
     shipped = json.loads((OWN / "regulator.json").read_text(encoding="utf-8"))
     designed = Study(OWN / "example.csv", u_low=0.0, u_high=100.0).results()

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.long
 
 
 def test_designed_loops_hold_on_the_true_process(tmp_path, share):
-    number = share(8, 40)
+    number = share(6, 40)
     results = prove.prove(range(number), tmp_path)
     bad = [str(r) for r in results if r.verdict in ("absurd", "error", "unstable")]
     assert not bad, bad

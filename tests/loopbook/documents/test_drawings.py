@@ -13,6 +13,8 @@ from loopbook.documents.pid_report import diagrams as of_the_report
 from loopbook.plots.block_diagram import Diagram
 from loopbook.plots.circuit import Circuit
 
+pytestmark = pytest.mark.long
+
 FIGURES = {of_the_tank: {"1", "2", "4", "7", "9"}, of_the_report: {"3.1", "3.11", "4.1", "4.4"}}
 
 

@@ -19,6 +19,8 @@ from loopbook.records.faults import find_faults
 from loopbook.records.record import Other, Record, RecordError
 from loopbook.records.steps import find_steps, noise_level
 
+pytestmark = pytest.mark.long
+
 TRUE = {
     FIRST_ORDER: ((2.0, 10.0, 3.0), 0.03),
     SECOND_ORDER: ((2.0, 10.0, 4.0, 2.0), 0.01),

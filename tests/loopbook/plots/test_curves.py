@@ -16,8 +16,9 @@ def test_panels_carry_title_labels_and_guides():
     top, bottom = fig.axes
     assert top.get_title() == "Title" and bottom.get_xlabel() == "time $t$ [s]"
     assert (top.get_ylabel(), bottom.get_ylabel()) == ("y [m]", "u [V]")
-    assert [t.get_text() for t in top.get_legend().get_texts()] == ["a", "b"]
-    assert bottom.get_legend() is None
+    (legend,) = fig.legends
+    assert [t.get_text() for t in legend.get_texts()] == ["a", "b"]
+    assert top.get_legend() is None and bottom.get_legend() is None
     assert len(top.lines) == 4 and len(bottom.lines) == 2
     assert top.lines[1].get_marker() == "o" and top.lines[0].get_marker() == "None"
     plt.close(fig)

@@ -7,6 +7,8 @@ import pytest
 from loopbook.process.sampled import exact_polynomials, sample
 from loopbook.process.transfer_function import Process, ProcessError
 
+pytestmark = pytest.mark.long
+
 SIX_LAGS = np.append(np.array([1.0]), [])
 for lag in (9000, 9500, 1e4, 1.05e4, 1.1e4, 1.2e4):
     SIX_LAGS = np.polymul(SIX_LAGS, [lag, 1])

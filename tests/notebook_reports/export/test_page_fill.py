@@ -1,13 +1,13 @@
 """Pages are filled: code and figure part, text flows in, and what introduces something stays with it."""
 
 import pytest
+from tools.pages.page_fill import fills
+from tools.pages.page_words import in_the_text, text_of
+from tools.pages.pdf_text import PdfText
 
 from notebook_reports.display import Figure, Table
 from notebook_reports.export.exporters.choose import export
 from notebook_reports.export.write.arrangement import Place, to_float
-from notebook_reports.export.write.page_fill import fills
-from notebook_reports.export.write.page_words import in_the_text, text_of
-from notebook_reports.export.write.pdf_text import PdfText
 
 pytestmark = pytest.mark.builds
 

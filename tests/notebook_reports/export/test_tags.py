@@ -3,10 +3,10 @@
 import re
 
 import pytest
+from tools.pages.notebook_words import compare
 
 from notebook_reports.display import Table, prose
 from notebook_reports.export.exporters.choose import export
-from notebook_reports.export.words import compare
 
 pytestmark = pytest.mark.builds
 

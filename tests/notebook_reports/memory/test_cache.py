@@ -11,6 +11,8 @@ from notebook_reports.run import run as runner
 from notebook_reports.run.canonical import canonical
 from notebook_reports.run.run import Run
 
+pytestmark = pytest.mark.long
+
 IDS = ("a/one", "a/two", "b/three")
 REPORTS = ("ledger.csv", *(f"{id}.{format}" for id in IDS for format in ("html", "ipynb")))
 

@@ -5,6 +5,8 @@ import json
 import re
 
 import pytest
+from tools.pages.page_words import in_the_text, text_of
+from tools.pages.pdf_text import PdfText
 
 from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.memory import stamps
@@ -231,3 +233,96 @@ def test_build_writes_them_and_names_what_is_unlisted(bench):
     assert outcome.code == 1
     assert "notebooks/essays/02.ipynb is in no part of notebooks/book.toml" in bench.said
     assert not {"index.html", "ledger.html", "loopbook.pdf"} & set(bench.reports())
+
+
+FIND = """
+[[part.find]]
+says = "It is *$K$* that is lost."
+misprint = "eq-1"
+verdict = "proved"
+"""
+
+
+def with_find(find=FIND):
+    return OUTLINE.replace('about = "With $K = 2$."\n', f'about = "With $K = 2$."\n{find}')
+
+
+def test_what_was_found_is_said_in_words_and_leads_to_its_proof(shelf):
+    shelf.write("notebooks/book.toml", with_find())
+    assert shelf.publish() == []
+    text = shelf.read("index.html").decode()
+    item = re.search(r'<ul class="finds">(.*?)</ul>', text, re.S)[1]
+    assert 'href="double_tank/01.html#cell-2">proved</a>' in item and "<math" in item and "that is lost" in item
+    assert "<b>1</b> error found in the documents" in text and "<b>1</b> statement put to the test" in text
+
+
+@pytest.mark.parametrize(
+    ("find", "told"),
+    [
+        (FIND.replace("eq-1", "eq-9"), "double-tank has no misprint 'eq-9' in the ledger"),
+        (FIND.replace("proved", "noted"), "is 'proved' in the ledger and 'noted' here; does the sentence still hold?"),
+        (FIND.replace('misprint = "eq-1"', ""), "a find has says, verdict and one of value, claim, misprint"),
+        (FIND.replace('"eq-1"', "1"), "each a text"),
+    ],
+)
+def test_a_find_that_the_ledger_does_not_bear_out_fails(shelf, find, told):
+    shelf.write("notebooks/book.toml", with_find(find))
+    [failure] = shelf.publish()
+    assert told in failure and shelf.there() == []
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ('picture = { notebook = "double_tank/01", figure = 1 }', "figure 1 of double_tank/01, which has 0"),
+        ('picture = { notebook = "double_tank/07", figure = 1 }', "the picture is of notebooks/double_tank/07.ipynb"),
+        ("picture = 1", "picture is { notebook"),
+        ('code = "behind"', "code is one of inline, end, none, got 'behind'"),
+    ],
+)
+def test_a_front_page_that_cannot_be_made_fails(shelf, line, told):
+    shelf.write("notebooks/book.toml", line + OUTLINE)
+    [failure] = shelf.publish()
+    assert told in failure
+
+
+def test_a_card_begins_as_the_chapter_does():
+    from notebook_reports.pages.front import opening
+
+    def cells(text):
+        return {"cells": [{"cell_type": "markdown", "source": text}]}
+
+    assert opening(cells("# T\n\nTwo tanks, $K = 2$.\n\nMore.")).startswith('Two tanks, <span class="together"><math')
+    long = "A sentence of some length about tanks. " * 20
+    assert opening(cells(f"# T\n\n{long}")) == ("A sentence of some length about tanks. " * 8).strip()
+    assert opening(cells("# T")) == "" and opening(cells("# T\n\n- a list")) == ""
+
+
+def pdf_words(pdf):
+    return text_of(in_the_text(PdfText(pdf)))
+
+
+def test_the_book_explains_the_verdicts_first_and_its_ledger_begins_with_the_errata(shelf):
+    shelf.publish()
+    words = pdf_words(shelf.read("loopbook.pdf"))
+    order = ["How to read this book", "derived here, and the exact number", "Part I", "Errata", "Coverage", "Index of"]
+    after = words.index("the exact number")
+    assert [words.rindex(w) if w in order[3:] else words.index(w) for w in order] == sorted(
+        words.rindex(w) if w in order[3:] else words.index(w) for w in order
+    )
+    assert words.index("Results of", after) > after and "1  A chapter" in words, "the index names chapters"
+    html = shelf.read("ledger.html").decode()
+    assert html.index('id="Errata"') < html.index('id="Coverage"')
+    assert '<form class="tools" role="search" hidden>' in html and 'href="index.html"' in html
+
+
+def test_the_book_has_its_code_where_it_is_asked_for(shelf):
+    out = io.StringIO()
+    made = {}
+    for code in ("", "end", "none"):
+        assert pages.publish(shelf.project, Console(out), code) == []
+        made[code] = pdf_words(shelf.read("loopbook.pdf"))
+        assert pages.reasons(shelf.project, code) == []
+    assert pages.reasons(shelf.project) == ["--code"]
+    assert "The code" not in made[""] and made["end"].count("The code") == 2 + 2 and "The code" not in made["none"]
+    assert re.search(r"shown\s+The code", made["end"])

@@ -128,6 +128,23 @@ def test_an_interruption_of_the_warm_up_is_obeyed_at_once(bench, short, number):
     assert list(temporary.iterdir()) == []
 
 
+def test_a_kernel_that_died_with_its_parent_before_it_was_ready_is_started_again(bench, monkeypatch):
+    monkeypatch.delenv(warm.PLAIN)
+    fork = warm.Warm.fork
+
+    def orphaned(self, *order):
+        kernel = fork(self, *order)
+        if kernel is not None:
+            self.kill()
+            self._process.wait()
+        return kernel
+
+    monkeypatch.setattr(warm.Warm, "fork", orphaned)
+    for name in ("one", "two"):
+        bench.write(f"a/{name}", "# A", "1")
+    assert bench.build(formats=("ipynb",), jobs=2).code == 0, bench.said
+
+
 def test_notebooks_of_a_warm_process_that_was_killed_run_in_fresh_kernels(bench, monkeypatch):
     monkeypatch.delenv(warm.PLAIN)
     fifo = bench.root / "kernel"

@@ -8,13 +8,17 @@ import sympy
 
 from derivations.algebra.delay_polynomials import K, Z, in_delays, polynomial
 from derivations.pole_placement.diophantine import PolePlacement
-from loopbook.documents.double_tank.long_fractions import as_printed, read_back, value_at
+from loopbook.documents.double_tank import long_fractions
 from loopbook.documents.printed_formulas import formulas
 from notebook_reports.ledger.document import Document
 from notebook_reports.ledger.verdicts import rounds_to
-from notebook_reports.ledger.words import shown as so  # noqa: F401 (chapters take it from here)
 
 REGULATOR = ("K_r", "c_1", "c_2", "c_3", "d_0", "d_1", "d_2")
+
+
+def right_sides(document: Document, id: str) -> list[Any]:
+    """Of the equations that a statement prints."""
+    return [right for _, right in formulas(document.said(id))]
 
 
 def two_forms_agree(printed: Mapping[str, Fraction]) -> bool:
@@ -38,32 +42,37 @@ def rows_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
 
 
 def recursions(design: PolePlacement) -> tuple[Any, Any]:
-    """y(k) and u(k) as the two difference equations give them."""
-    return design.plant_equation().rhs, design.regulator_equation().rhs
+    """y(k) and u(k) as the two difference equations give them, equalities."""
+    return design.plant_equation(), design.regulator_equation()
 
 
 def recursions_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
     """Are the printed recursions, the expanded C, the rows of the start and those of the loop the derived ones?
 
-    A row of the start is the recursion with nothing before the first sample.
+    Both sides are compared. A row of the start is the recursion with nothing before the first sample.
     """
-    sides = recursions(design)
-    before = {sympy.Function(name)(i): 0 for name in "uy" for i in range(-3, 1)}
-    starts = [side.subs(K, i).subs(before) for i in range(1, 5) for side in sides]
+    both = [law.args for law in recursions(design)]
+    first = int(document.said("start-up-rows").number("first"))
+    before = {sympy.Function(name)(i): 0 for name in "uy" for i in range(first - 4, first)}
+    rows_of = range(first, first + 4)
+    starts = [(left.subs(K, i), right.subs(K, i).subs(before)) for i in rows_of for left, right in both]
     derived = {
-        "plant-recursion": [sides[0]],
-        "regulator-recursion": [sides[1]],
-        "c-expanded": [design.C_form],
+        "plant-recursion": both[:1],
+        "regulator-recursion": both[1:],
+        "c-expanded": [(sympy.Symbol("C"), design.C_form)],
         "start-up-rows": starts,
-        "loop-rows": list(sides),
+        "loop-rows": both,
     }
-    printed = {id: [right for _, right in formulas(document.said(id))] for id in derived}
-    return {id: all(sympy.expand(x - y) == 0 for x, y in zip(derived[id], printed[id], strict=True)) for id in derived}
+    pairs = {id: zip(derived[id], formulas(document.said(id)), strict=True) for id in derived}
+    return {
+        id: all(left == at and sympy.expand(right - printed) == 0 for (left, right), (at, printed) in pair)
+        for id, pair in pairs.items()
+    }
 
 
 def longest_shift(design: PolePlacement) -> int:
     """The most samples that a recursion looks back: its general row may begin one later."""
-    signals = (f for side in recursions(design) for f in side.atoms(sympy.core.function.AppliedUndef))
+    signals = (f for law in recursions(design) for f in law.rhs.atoms(sympy.core.function.AppliedUndef))
     return int(max(K - f.args[0] for f in signals))
 
 
@@ -72,14 +81,37 @@ def laws_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
     signals = dict(zip("yur", sympy.symbols("Y U R"), strict=True))
     forms = dict(zip(sympy.symbols("A B C D"), (design.A, design.B, design.C_form, design.D_form), strict=True))
     laws = [(out - law).subs(forms) for out, law in formulas(document.said("laws-behind"))]
+    below = design.A, design.C_form
     agree = {}
-    for name, newest, side, below, law in zip(
-        ("process", "regulator"), "yu", recursions(design), (design.A, design.C_form), laws, strict=True
+    for name, newest, law, under, quotient in zip(
+        ("process", "regulator"), "yu", recursions(design), below, laws, strict=True
     ):
-        found = side.atoms(sympy.core.function.AppliedUndef)
+        found = law.rhs.atoms(sympy.core.function.AppliedUndef)
         shifted = {f: signals[f.func.__name__] * Z ** (f.args[0] - K) for f in found}
-        agree[name] = sympy.cancel(signals[newest] - side.subs(shifted) - below * law) == 0
+        agree[name] = sympy.cancel(signals[newest] - law.rhs.subs(shifted) - under * quotient) == 0
     return agree
+
+
+def degree_rules_hold(design: PolePlacement, document: Document) -> dict[str, bool]:
+    """Do the printed rules for the degrees hold, and are there as many unknowns as powers?"""
+    n = design.degrees
+    degrees = {"n_a": n.a_prime, "n_b": n.b, "n_c": n.c, "n_d": n.d, "m": n.p}
+    printed = formulas(document.said("degree-rules"))
+    rules = {str(left): sympy.Eq(left, right).subs(degrees) == sympy.true for left, right in printed}
+    return rules | {"as many unknowns as powers": n.unknowns == n.largest_p}
+
+
+def shapes_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
+    """Are the printed forms of C' and D those of the derived degrees?"""
+    pairs = zip(("$C'$", "$D$"), right_sides(document, "shapes"), (design.C_prime_form, design.D_form), strict=True)
+    return {name: sympy.expand(one - other) == 0 for name, one, other in pairs}
+
+
+def integrator_moved(design: PolePlacement, document: Document) -> tuple[Any, Any]:
+    """(A C - A' C', C less the derived one) with A' and C as printed: zero where the integrator may move."""
+    read = {"A": design.A, "Cprime": design.C_prime_form}
+    A_prime, C = (right.subs(read) for right in right_sides(document, "integrator-moves"))
+    return sympy.expand(design.A * C - A_prime * design.C_prime_form), sympy.expand(C - design.C_form)
 
 
 def quotient_orders(design: PolePlacement, parameters: Mapping[str, Fraction], h: float) -> tuple[int, int]:
@@ -103,16 +135,25 @@ def ratios(design: PolePlacement, coefficients: Mapping[Any, Fraction]) -> dict[
     for name, value in design.parameters.items():
         terms = sympy.Poly(value.subs(coefficients), sympy.Symbol("q")).terms()
         powers = {power: Fraction(int(c.p), int(c.q)) for (power,), c in terms}
-        found |= as_printed(f"d_iterativ-{name.replace('_', '')}", powers)
+        found |= long_fractions.as_printed(f"d_iterativ-{name.replace('_', '')}", powers)
     return found
+
+
+def rounding(found: Mapping[str, Any], document: Document) -> int:
+    """How many of the numbers, by id, round to what the document prints."""
+    printed = document.printed.values
+    return sum(rounds_to(value, printed[id].printed) for id, value in found.items() if id in printed)
 
 
 def typed_in(document: Document) -> dict[str, dict[str, Fraction]]:
     """What the long expressions of the appendix, typed in as printed, give at the poles of the table, by name and q."""
     text = document.given("Appendix, d_iterativ")
-    polynomials = {name: read_back(text, f"d_iterativ-{name.replace('_', '')}") for name in REGULATOR}
+    polynomials = {name: long_fractions.read_back(text, f"d_iterativ-{name.replace('_', '')}") for name in REGULATOR}
     poles = ("0.3", "0.5", "0.7")
-    return {name: {q: value_at(polynomial, Fraction(q)) for q in poles} for name, polynomial in polynomials.items()}
+    return {
+        name: {q: long_fractions.value_at(polynomial, Fraction(q)) for q in poles}
+        for name, polynomial in polynomials.items()
+    }
 
 
 def typed_in_agree(document: Document) -> dict[str, bool]:

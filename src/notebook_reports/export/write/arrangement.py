@@ -8,7 +8,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
 
-from notebook_reports.export.write.page_words import MARGIN_TOP
+MARGIN_TOP = 2.7 * 72 / 2.54
+"""Points between the upper edge of a page and its text, as in ``report.typ``."""
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,11 @@ def extent(cell: Cell) -> Range:
     return size * low + mark, size * high + mark
 
 
+def is_sentence(cell: Cell) -> bool:
+    """Is a marked cell more than a verdict?"""
+    return len(plain(cell.children)) > VERDICT
+
+
 def unbroken(cell: Cell) -> bool:
     """Does the cell stay on one line: numbers, verdicts and a few letters? Sentences and heads do not."""
     if cell.head:

@@ -58,6 +58,15 @@ def name_of(character: str) -> str:
     return f"‹{name.lower()}›"
 
 
+def is_east_asian(character: str) -> bool:
+    """Is there a font to be had for it, see `more_fonts`?
+
+    >>> is_east_asian("水"), is_east_asian("あ"), is_east_asian("🎉")
+    (True, True, False)
+    """
+    return unicodedata.name(character, "").startswith(("CJK", "HIRAGANA", "KATAKANA", "HANGUL"))
+
+
 def without_absent(text: str, stand_in: str = "") -> str:
     """The text with the names of absent characters, or with a stand-in, in their place."""
     found = absent_in(text)

@@ -45,6 +45,7 @@ from notebook_reports.export.model import (
 from notebook_reports.export.read.css import readable_on
 from notebook_reports.export.read.notebook import relative_address
 from notebook_reports.export.read.pictures import MIME
+from notebook_reports.export.write.column_widths import is_sentence
 from notebook_reports.export.write.highlighting import runs
 from notebook_reports.export.write.inside_page import inside_page
 
@@ -187,12 +188,13 @@ class HtmlWriter:
         tag = "th" if cell.head else "td"
         spans = "".join(f' {k}="{v}"' for k, v in (("colspan", cell.colspan), ("rowspan", cell.rowspan)) if v > 1)
         scope = f' scope="{("colgroup" if cell.colspan > 1 else "col") if in_head else "row"}"' if cell.head else ""
-        classes = [c for c in (cell.align if cell.align != "left" else "", cell.mark, "again" * cell.again) if c]
+        mark = "" if is_sentence(cell) else cell.mark
+        classes = [c for c in (cell.align if cell.align != "left" else "", mark, "again" * cell.again) if c]
         if len(plain(cell.children)) > 28:
             classes.append("long")
         css = f' class="{" ".join(classes)}"' if classes else ""
         css += _looks(cell)
-        symbol = f'<span class="symbol">{_MARKS[cell.mark]}</span> ' if cell.mark else ""
+        symbol = f'<span class="symbol {cell.mark}">{_MARKS[cell.mark]}</span> ' if cell.mark else ""
         return f"<{tag}{spans}{scope}{css}>{symbol}{self.inline(cell.children)}</{tag}>"
 
     def inline(self, nodes: list[Inline]) -> str:

@@ -57,7 +57,8 @@ def contents(report: Report) -> str:
 
     def entry(heading: Heading) -> str:
         number = f'<span class="number">{heading.number}</span> ' if heading.number else ""
-        return f'<a href="#{escape(heading.anchor)}">{number}{writer.inline(words_only(heading.children))}</a>'
+        words = writer.inline(words_only(heading.children))
+        return f'<a href="#{escape(heading.anchor)}">{number}<span>{words}</span></a>'
 
     parts, depth = [], 0
     for heading in headings:

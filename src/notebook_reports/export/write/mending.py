@@ -24,7 +24,7 @@ from notebook_reports.export.model import (
     walk,
 )
 from notebook_reports.export.write.arrangement import Arrangement, to_float
-from notebook_reports.export.write.glyphs import absent_in, name_of, note_absent
+from notebook_reports.export.write.glyphs import absent_in, is_east_asian, name_of, note_absent
 from notebook_reports.export.write.typst import file_digest
 from notebook_reports.export.write.typst_engine import (
     LANDSCAPE_FROM,
@@ -225,5 +225,7 @@ def _name_absent(report: Report) -> bool:
     shown = ", ".join(name_of(c) for c in list(found)[:8])
     more = f" and {len(found) - 8} more" if len(found) > 8 else ""
     where = f", here and in {len(cells) - 1} more cells" if len(cells) > 1 else ""
-    cells[0].blocks.append(Mend("character", f"no font has {shown}{more}; by name{where or ' here'}", remark=True))
+    cure = "; pip install loopbook[cjk] brings a font" if any(map(is_east_asian, found)) else ""
+    told = f"no font has {shown}{more}; by name{where or ' here'}{cure}"
+    cells[0].blocks.append(Mend("character", told, remark=True))
     return True

@@ -1,6 +1,6 @@
 """Fonts of other packages, where they are installed, for scripts that the usual fonts have not.
 
-``pip install mplfonts`` brings one for Chinese, Japanese and Korean. What the families named in ``report.typ``
+``pip install loopbook[cjk]`` brings one for Chinese, Japanese and Korean. What the families named in ``report.typ``
 have is never taken from these, so a page that needs none of them does not change when they are there.
 """
 

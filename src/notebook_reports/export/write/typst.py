@@ -55,6 +55,7 @@ from notebook_reports.export.write.column_widths import (
     TEXT_WIDTH,
     breakable_words,
     deciding,
+    is_sentence,
     row_heights,
     unbroken,
 )
@@ -397,6 +398,7 @@ class TypstWriter:
             optional += f", colspan: {cell.colspan}, rowspan: {cell.rowspan}"
         if cell.mark:
             optional += f", mark: {typst_string(cell.mark)}"
+            optional += ", sentence: true" if is_sentence(cell) else ""
         if cell.ink or cell.ground:
             ink = cell.ink or readable_on(cell.ground)
             optional += f", ink: rgb({typst_string(ink)})"

@@ -5,10 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from loopbook.documents.pid_report.batch.processes import FORMULAS
 from loopbook.documents.pid_report.batch.study import Ratios
 from loopbook.loop.continuous import Loop
 from loopbook.loop.process_phase import frequency_at
 from loopbook.plots.curves import COLOURS
+from loopbook.plots.legend import legend_below
 from loopbook.plots.nyquist import nyquist_figure
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.migo import circle
@@ -32,7 +34,8 @@ def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: fl
             chosen = [m.family == family for m in ratios.members]
             across, up = ratios.tau[chosen], getattr(ratios, name)[chosen]
             look = {"marker": MARKERS[family - 1], "color": COLOURS[(family - 1) % len(COLOURS)]}
-            axis.plot(across, up, linestyle="none", markersize=4, markerfacecolor="none", label=str(family), **look)
+            look["label"] = f"${FORMULAS[family]}$"
+            axis.plot(across, up, linestyle="none", markersize=4, markerfacecolor="none", **look)
         axis.axhspan(1 - band, 1 + band, color="0.9", zorder=0)
         values = getattr(ratios, name)
         if values.max() > DECADES * values.min():
@@ -40,8 +43,8 @@ def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: fl
         axis.set_ylabel(NAMES[name])
         axis.grid(True, linewidth=0.4, alpha=0.5)
     axes[0, 0].set_title(title)
-    axes[0, 0].legend(title="family", fontsize="x-small", title_fontsize="x-small", ncols=3, loc="best")
     axes[-1, 0].set_xlabel(r"relative dead time $\tau$ [1]")
+    legend_below(fig, axes[0, 0])
     return fig
 
 

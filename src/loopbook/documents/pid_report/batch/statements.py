@@ -3,73 +3,23 @@
 The report uses words; here they have numbers. *Well* is within 15 % of the optimum, *fairly near* within 25 %, *nearly
 all* is nine of ten processes, *most* is more than half. Lag-dominated is tau < 0.3, balanced 0.4 < tau < 0.6."""
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Mapping, Sequence
 from typing import SupportsFloat
 
 import numpy as np
 
 from loopbook.documents.pid_report.batch import robustness as robust
-from loopbook.documents.pid_report.batch.study import RULES, MemberStudy, Ratios, ratios, share_within
+from loopbook.documents.pid_report.batch.collected import Batch
+from loopbook.documents.pid_report.batch.study import share_within
 from notebook_reports.ledger.printed_data import Claim
 from notebook_reports.ledger.verdicts import Truth
 
 WELL, NEAR, NEARLY_ALL, FRAGILE = 0.15, 0.25, 0.9, 2.0
-BEYOND = 1 + 1e-9
-"""A process on a border of the source, such as tau = 1/2 for T = L, counts as beyond it: rounding must not decide."""
 Statements = dict[str, tuple[Mapping[str, Truth] | Truth, str]]
 
 
 def percent(share: SupportsFloat) -> str:
     return f"{100 * float(share):.0f} %"
-
-
-class Batch:
-    """The studied batch as arrays over its processes: tau, kappa, what derivative action gains, and by rule the
-    settings over the optimum (`over`) and the joint M (`joint`)."""
-
-    def __init__(self, studies: Sequence[MemberStudy], said: Callable[[str], Claim]):
-        self.studies, self.said = tuple(studies), said
-        self.tau = np.array([s.tau for s in studies]) * BEYOND
-        self.kappa = np.array([s.kappa for s in studies]) * BEYOND
-        self.integrating = np.array([s.member.integrates for s in studies])
-        self.lag, self.balanced = self.tau < 0.3, (self.tau > 0.4) & (self.tau < 0.6)
-        self.middle, self.delay = (self.tau > 0.3) & (self.tau < 0.5), self.tau > 0.6
-
-    @cached_property
-    def over(self) -> dict[str, Ratios]:
-        return {rule: ratios(self.studies, rule) for rule in RULES}
-
-    @cached_property
-    def joint(self) -> dict[str, np.ndarray]:
-        return {rule: robust.joint(self.studies, rule) for rule in RULES}
-
-    @cached_property
-    def efficiency(self) -> np.ndarray:
-        """ki of the PI step rule over the largest possible at its own joint M."""
-        return robust.efficiency(self.studies, self.joint["PI step"])
-
-    @cached_property
-    def ziegler_nichols(self) -> np.ndarray:
-        """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
-        return robust.ziegler_nichols_joint(self.studies)
-
-    def side(self, id: str, values: np.ndarray, limit: str) -> np.ndarray:
-        """The processes that a statement speaks of: those on its side of its limit."""
-        claim = self.said(id)
-        distance = values - float(claim.number(limit))
-        return distance > 0 if claim.agrees("side", 1) else distance < 0
-
-    def range(self, id: str) -> np.ndarray:
-        """The processes whose tau lies between the ends that a statement names."""
-        low, high = (float(self.said(id).number(end)) for end in ("low", "high"))
-        return (self.tau > low) & (self.tau < high)
-
-    def gain(self, name: str) -> np.ndarray:
-        """ki or K of PID MIGO over that of PI MIGO."""
-        return np.array(
-            [getattr(s.settings["PID MIGO"], name) / getattr(s.settings["PI MIGO"], name) for s in self.studies]
-        )
 
 
 def derivative(b: Batch) -> Statements:
@@ -132,15 +82,15 @@ def pi_step(b: Batch) -> Statements:
     return {"pi-step-agrees": (parts, evidence)}
 
 
-def _follows(values: np.ndarray) -> tuple[dict[str, bool], str]:
+def _follows(values: np.ndarray, as_printed: bool) -> tuple[dict[str, bool], str]:
     within = {"nearly all fairly near": NEAR, "nearly all well": WELL}
     parts = {name: share_within(values, width) >= NEARLY_ALL for name, width in within.items()}
-    return parts, f"{len(values)} processes: {robust.spread(values)}."
+    return parts | {"the limit in print": as_printed}, f"{len(values)} processes: {robust.spread(values)}."
 
 
-def _on_one_side(outside: Sequence[bool], values: np.ndarray) -> tuple[dict[str, bool], str]:
+def _on_one_side(outside: Sequence[bool], values: np.ndarray, elsewhere: bool) -> tuple[dict[str, bool], str]:
     share = float(np.mean(outside))
-    parts = {"most": share > 0.5, "nearly all": share >= NEARLY_ALL}
+    parts = {"most": share > 0.5, "nearly all": share >= NEARLY_ALL, "where it is not good": elsewhere}
     return parts, f"{percent(share)} of {len(values)} processes: {robust.spread(values)}."
 
 
@@ -155,17 +105,26 @@ def pid_step(b: Batch) -> Statements:
         "Ti": [b.said("pid-Ti-high").agrees("Ti", x - 1) for x in r.Ti[rest["Ti"]]],
     }
     Td_there, half = r.Td[b.side("pid-Td-either", b.tau, "tau")], r.Td[b.range("pid-Td-half")]
+    apart = {n: not (rest[n] & good[n]).any() for n in rest}
+    limits = {n: b.as_printed(f"pid-{n}-good", "tau", f"pid-good-{n}") for n in good}
+    ranges = b.range("pid-Td-half"), b.range("pid-Td-robustness"), b.side("pid-Td-either", b.tau, "tau")
+    one_range, beside = (ranges[0] == ranges[1]).all(), not (ranges[0] & ranges[2]).any()
+    ways = [b.said("pid-Td-either").text(way) for way in ("one", "other")]
     either = f"{percent(np.mean(Td_there < 1))} smaller, {percent(np.mean(Td_there > 1))} larger; "
     extreme = half.min() if b.said("pid-Td-half").agrees("Td", -1) else 1 / half.max()
     return {
-        "pid-K-good": _follows(r.K[good["K"]]),
-        "pid-K-low": _on_one_side(off["K"], r.K[rest["K"]]),
-        "pid-Ti-good": _follows(r.Ti[good["Ti"]]),
-        "pid-Ti-high": _on_one_side(off["Ti"], r.Ti[rest["Ti"]]),
-        "pid-Td-good": _follows(r.Td[good["Td"]]),
-        "pid-Td-half": (extreme < 0.5, f"{len(half)} processes: {robust.spread(half)}"),
+        "pid-K-good": _follows(r.K[good["K"]], limits["K"]),
+        "pid-K-low": _on_one_side(off["K"], r.K[rest["K"]], apart["K"]),
+        "pid-Ti-good": _follows(r.Ti[good["Ti"]], limits["Ti"]),
+        "pid-Ti-high": _on_one_side(off["Ti"], r.Ti[rest["Ti"]], apart["Ti"]),
+        "pid-Td-good": _follows(r.Td[good["Td"]], limits["Td"]),
+        "pid-Td-half": (
+            {"half": extreme < 0.5, "the range of both statements": one_range},
+            f"{len(half)} processes: {robust.spread(half)}",
+        ),
         "pid-Td-either": (
-            {way: any(b.said("pid-Td-either").agrees(way, x - 1) for x in Td_there) for way in ("one", "other")},
+            {way: any(b.said("pid-Td-either").agrees(way, x - 1) for x in Td_there) for way in ("one", "other")}
+            | {"two ways": ways[0] != ways[1], "beside the range": beside},
             either + robust.spread(Td_there),
         ),
     }
@@ -192,6 +151,7 @@ def pid_step_robustness(b: Batch) -> Statements:
     kinds = {r"$\tau < 0.3$": there & b.lag, r"$\tau > 0.3$": there & ~b.lag}
     most = {name: [np.mean(x[k]) if k.any() else 0.0 for x in (lower, longer)] for name, k in kinds.items()}
     parts = {name: min(shares) > 0.8 for name, shares in most.items()}
+    parts["the limit in print"] = b.as_printed(said.id, "tau", "pid-conservative")
     good = b.said("pid-good-where-not-needed")
     late, slow = r.ki[b.tau > 0.5], r.ki[b.lag]
     gains = np.median(ki[b.tau > 0.5]), np.median(ki[b.lag])
@@ -199,7 +159,7 @@ def pid_step_robustness(b: Batch) -> Statements:
     shares = "; ".join(f"{name}: K and ki so on {percent(x)}, Ti on {percent(y)}" for name, (x, y) in most.items())
     return {
         "pid-Td-robustness": (
-            worse > 0.8,
+            {"on most": worse > 0.8, "the range of both statements": (middle == b.range("pid-Td-half")).all()},
             f"1/M differs so between the rule's Td and MIGO's on {percent(worse)} of {len(inside)}, M: {medians}",
         ),
         "pid-conservative-below": (parts, f"{there.sum()} processes, {shares}."),
@@ -219,7 +179,7 @@ def pid_step_robustness(b: Batch) -> Statements:
 def frequency(b: Batch, rule: str) -> Statements:
     """Sections 5.3.5 and 5.3.6: rule is "PI frequency" or "PID frequency"."""
     r, M, slug = b.over[rule], b.joint[rule], rule.lower().replace(" ", "-")
-    fit = b.side(f"{slug}-near", b.kappa, "kappa")
+    fit, limit = b.side(f"{slug}-near", b.kappa, "kappa"), (f"{slug}-near", "kappa", f"{slug}-kappa")
     names = ("K", "Ti", "Td") if rule.startswith("PID") else ("K", "Ti")
     near = {name: share_within(getattr(r, name)[fit], NEAR) for name in names}
     parts = {f"{name} fairly near for nearly all": share >= NEARLY_ALL for name, share in near.items()}
@@ -232,7 +192,7 @@ def frequency(b: Batch, rule: str) -> Statements:
     }
     return {
         f"{slug}-near": (
-            parts | {"joint M below 2": worst < FRAGILE},
+            parts | {"joint M below 2": worst < FRAGILE, "the limit in print": b.as_printed(*limit)},
             f"within 25 % of MIGO, {fit.sum()} processes of that kappa: {shares}; joint M up to {worst:.2f}.",
         ),
         f"{slug}-unfit": (

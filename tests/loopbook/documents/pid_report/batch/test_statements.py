@@ -21,7 +21,7 @@ pytestmark = pytest.mark.long
 
 @pytest.fixture(scope="module")
 def whole():
-    return says.Batch(study_batch(progress=False), load("pid-report").claims.__getitem__)
+    return says.Batch(study_batch(progress=False), load("pid-report"))
 
 
 @pytest.fixture(scope="module")

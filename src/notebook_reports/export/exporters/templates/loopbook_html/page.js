@@ -50,6 +50,17 @@
   }
   window.addEventListener("beforeprint", () => folds.forEach((fold) => (fold.open = true)));
 
+  // a link into what is folded opens it
+  const unfold = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    let fold = target && target.closest("details:not([open])");
+    if (!fold) return;
+    for (; fold; fold = fold.parentElement.closest("details:not([open])")) fold.open = true;
+    target.scrollIntoView();
+  };
+  window.addEventListener("hashchange", unfold);
+  unfold();
+
   // the section that is read, in the contents
   const links = new Map(all(".contents a").map((link) => [decodeURIComponent(link.hash.slice(1)), link]));
   const heads = all("main h2[id], main h3[id]").filter((head) => links.has(head.id));

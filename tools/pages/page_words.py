@@ -2,7 +2,9 @@
 
 import re
 
-from notebook_reports.export.write.pdf_text import PdfText, TextRun
+from tools.pages.pdf_text import PdfText, TextRun
+
+from notebook_reports.export.write.arrangement import MARGIN_TOP
 
 
 def in_the_text(pages: PdfText) -> list[TextRun]:
@@ -28,7 +30,7 @@ def text_of(runs: list[TextRun]) -> str:
     return text
 
 
-MARGIN_X, MARGIN_TOP, MARGIN_BOTTOM = 2.5 * 72 / 2.54, 2.7 * 72 / 2.54, 2.5 * 72 / 2.54
+MARGIN_X = MARGIN_BOTTOM = 2.5 * 72 / 2.54
 """Points between the edge of a page and its text: the margins of ``report.typ``."""
 _SLACK = 5.0
 """Points that a letter may stand out: punctuation and slanted letters do."""

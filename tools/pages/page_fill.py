@@ -3,8 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from notebook_reports.export.write.page_words import MARGIN_BOTTOM, MARGIN_TOP
-from notebook_reports.export.write.pdf_text import PdfText
+from tools.pages.page_words import MARGIN_BOTTOM
+from tools.pages.pdf_text import PdfText
+
+from notebook_reports.export.write.arrangement import MARGIN_TOP
 
 BETWEEN = 30.0
 """Points without anything that are no gap: the space between blocks, above a heading, around a formula."""
