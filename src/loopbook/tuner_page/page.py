@@ -28,6 +28,7 @@ body {{ margin: 0; padding: 10px 14px; background: #eaeef2; color: #16202b;
 h1 {{ font-size: 17px; margin: 2px 2px 8px; display: flex; gap: 12px; align-items: baseline; flex-wrap: wrap; }}
 h1 small {{ font-size: 13px; font-weight: 400; color: #5a6673; }}
 main > .live .lbt {{ width: 100%; margin: 0; }}
+main > .live .lbt-grid {{ min-height: 0; }}
 noscript svg, noscript img {{ max-width: 100%; height: auto; background: #fff; }}
 @media (prefers-color-scheme: dark) {{ body {{ background: #0b0f14; color: #e4e9ef; }} h1 small {{ color: #9aa8b6; }} }}
 @media (max-width: 640px) {{ body {{ padding: 6px; }} }}

@@ -16,10 +16,11 @@ from loopbook.plots.stairs import stairs
 from loopbook.pole_placement.place import place
 from loopbook.process.sampled import sample
 from loopbook.process.transfer_function import Process
-from loopbook.response.simulation import simulate
+from loopbook.response.simulation import Simulation, simulate
 from loopbook.tuner_page.running import is_programmed, number_of_data, program_settings, rst_of, run_program
 
 SIZE = (7.4, 3.5)
+FEW = 700  # samples that are told apart
 
 
 def process_of(data: Mapping[str, Any]) -> Process:
@@ -73,8 +74,11 @@ def still(data: Mapping[str, Any]) -> Any:
         axis.set_ylabel(_literal(name))
         axis.grid(True, linewidth=0.4, alpha=0.5)
     axes[1].set_xlabel("time $t$ [s]")
-    for axis, (t, values) in zip(axes, _responses(loop, data), strict=False):
-        axis.plot(t, values, color=COLOURS[0], linewidth=1.4)
+    output, entered, seen = _responses(loop, data)
+    axes[0].plot(*output, color=COLOURS[0], linewidth=1.4)
+    axes[1].plot(*entered, color=COLOURS[0], linewidth=1.4)
+    if seen is not None:
+        axes[0].plot(*seen, ".", color="0.45", markersize=3)
     for limit in (s.get("low"), s.get("high")):
         if limit is not None:
             axes[1].axhline(limit, color=COLOURS[1], linewidth=0.8, linestyle=":")
@@ -83,6 +87,9 @@ def still(data: Mapping[str, Any]) -> Any:
     curve = nyquist_curve(loop)
     axes[2].plot(curve.real, curve.imag, color=COLOURS[0], linewidth=1.4, linestyle=STYLES[0])
     axes[2].plot(-1, 0, "x", color=COLOURS[1])
+    if loop.is_stable:
+        near = 1 / loop.margins().Ms.value
+        axes[2].add_patch(plt.Circle((-1, 0), near, fill=False, edgecolor=COLOURS[1], linestyle="--", linewidth=0.9))
     axes[2].set(xlim=(-2.2, 1.2), ylim=(-2.2, 1.2), aspect="equal")
     axes[2].set_xlabel(_title(loop), fontsize="small")
     axes[2].grid(True, linewidth=0.4, alpha=0.5)
@@ -98,12 +105,16 @@ def nyquist_curve(loop: Loop | SampledLoop) -> np.ndarray:
     return np.asarray(loop.transfer(1j * middle * np.geomspace(0.03, 60, 1500)))
 
 
-def _responses(loop: Loop | SampledLoop, data: Mapping[str, Any]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """(t, y) and (t, u)."""
+Course = tuple[np.ndarray, np.ndarray]
+
+
+def _responses(loop: Loop | SampledLoop, data: Mapping[str, Any]) -> tuple[Course, Course, Course | None]:
+    """(t, y) and (t, u); where the measurement is disturbed (t, what the regulator sees)."""
     s = data["state"]
     if is_programmed(data):
         course = run_program(data, process_of(data), _horizon(Loop(loop.process, regulator_of(data))))
-        return [(course.t, course.y), stairs(course.t, course.u)]
+        seen = (course.t, course.measured) if s.get("wave") and len(course.t) < FEW else None
+        return _output(course), stairs(course.t, course.u), seen
     if isinstance(loop, SampledLoop):
         steps = max(40, round(12 / (s["speed"] * s["h"])))
         load = [0.0 if k < steps // 2 else s["d"] for k in range(steps + 1)]
@@ -111,12 +122,20 @@ def _responses(loop: Loop | SampledLoop, data: Mapping[str, Any]) -> list[tuple[
         course = simulate(
             loop.process, loop.regulator.controller(low, high), s["h"], steps, reference=s["r"], load=load
         )
-        return [(course.t, course.y), stairs(course.t, course.u)]
+        return _output(course), stairs(course.t, course.u), None
     horizon = _horizon(loop)
     t = np.linspace(0.0, horizon, 600)
     reference, load_step = loop.step("reference", horizon), loop.step("load", horizon)
     (y1, u1), (y2, u2) = reference.after([(0.0, s["r"])], t), load_step.after([(horizon / 2, s["d"])], t)
-    return [(t, y1 + y2), (t, u1 + u2)]
+    return (t, y1 + y2), (t, u1 + u2), None
+
+
+def _output(course: Simulation) -> Course:
+    """(t, y), also between few samples."""
+    if len(course.t) >= FEW:
+        return course.t, course.y
+    t = np.linspace(0.0, course.t[-1], FEW)
+    return t, course.between(t)
 
 
 def _horizon(loop: Loop) -> float:
