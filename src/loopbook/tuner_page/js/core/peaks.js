@@ -7,6 +7,7 @@ import { rootBetween } from "./search.js";
 import { LoopError } from "./transfer.js";
 
 const CERTAIN = 1e-6;
+const CERTAIN_AROUND = 1e-4; // of a curve that goes around a circle for ever, where each digit costs ten times the turns
 const NEARBY = [1e-2, 1e-4, 1e-6];
 const MOST = 400000;
 
@@ -19,6 +20,7 @@ class Axis {
         this.poles = inverse ? loop.zeros : loop.poles;
         this.delay = inverse ? -loop.delay : loop.delay;
         this.k = Math.abs(this.num[0] / this.den[0]);
+        this.certain = 1 - (this.delay && this.num.length === this.den.length ? CERTAIN_AROUND : CERTAIN);
     }
 
     at(w) {
@@ -58,16 +60,17 @@ class Axis {
         for (let i = 0; i < steps; i += 1) {
             const w = high * 1.5 ** i;
             if (i) grid.push(w);
-            if (this.tail(w) >= seen * (1 - CERTAIN)) break;
+            if (this.tail(w) >= seen * this.certain) break;
         }
         return { grid, best, at };
     }
 
-    // What |1 + W| cannot fall below beyond `start`, which exceeds every |root|.
+    // What |1 + W| cannot fall below beyond `start`, which exceeds every |root|: |jw - r| of a real root, and the square root of
+    // that of a pair, lies between w sqrt(1 - |r|^2/w^2) and w sqrt(1 + |r|^2/w^2).
     tail(start) {
         const excess = this.zeros.length - this.poles.length, scale = this.k * start ** excess;
-        const up = (found) => found.reduce((p, r) => p * (1 + abs(r) / start), 1);
-        const down = (found) => found.reduce((p, r) => p * (1 - abs(r) / start), 1);
+        const up = (found) => found.reduce((p, r) => p * Math.sqrt(1 + (abs(r) / start) ** 2), 1);
+        const down = (found) => found.reduce((p, r) => p * (r[1] ? Math.sqrt(1 - (abs(r) / start) ** 2) : 1), 1);
         const least = scale * down(this.zeros) / up(this.poles);
         if (excess > 0) return least - 1;
         const most = scale * up(this.zeros) / down(this.poles);
@@ -126,7 +129,7 @@ function polishedMinimum(curve, a, b, start) {
     return [curve.distance(w), w];
 }
 
-// [min |1 + W|, w] over the whole curve: certified to 1e-6, in fact to rounding.
+// [min |1 + W|, w] over the whole curve: certified to `certain`, in fact to rounding.
 export function closest(curve) {
     let { grid, best, at } = curve.start();
     let intervals = [];
@@ -140,7 +143,7 @@ export function closest(curve) {
             const [distance, w] = polishedMinimum(curve, Math.max(a - width, 0), b + width, middle);
             [best, at] = distance < surveys[lowest][0] ? [distance, w] : [surveys[lowest][0], middle];
         }
-        const open = intervals.filter((_, i) => surveys[i][1] < best * (1 - CERTAIN));
+        const open = intervals.filter((_, i) => surveys[i][1] < best * curve.certain);
         if (!open.length) return [best, at];
         if (open.length > MOST) break;
         intervals = open.flatMap(([a, b]) => [[a, (a + b) / 2], [(a + b) / 2, b]]);
