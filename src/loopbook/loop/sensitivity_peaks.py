@@ -19,6 +19,7 @@ from loopbook.loop.unit_circle import CircleTransfer
 from loopbook.numerics import horner
 
 CERTAIN = 1e-6
+CERTAIN_AROUND = 1e-4  # of a curve that goes around a circle for ever, where each digit costs ten times the turns
 BESIDE = (1e-2, 1e-4, 1e-6)
 
 
@@ -30,7 +31,12 @@ class Peak(NamedTuple):
 
 
 class _Curve(ABC):
-    """W over w. A subclass tells W, d log W/dw, and what bounds them on intervals."""
+    """W over w. A subclass tells W, d log W/dw, and what bounds them on intervals.
+
+    certain: relative, to what it is shown that nothing is smaller.
+    """
+
+    certain = CERTAIN
 
     @abstractmethod
     def __call__(self, w: np.ndarray) -> np.ndarray: ...
@@ -76,6 +82,7 @@ class _Axis(_Curve):
         self.zeros, self.poles = (loop.poles, loop.zeros) if inverse else (loop.zeros, loop.poles)
         self.delay = -loop.delay if inverse else loop.delay
         self.k = abs(self.num[0] / self.den[0])
+        self.certain = CERTAIN_AROUND if self.delay and len(self.num) == len(self.den) else CERTAIN
 
     def __call__(self, w: np.ndarray) -> np.ndarray:
         s = 1j * np.asarray(w, dtype=float)
@@ -103,7 +110,7 @@ class _Axis(_Curve):
         at_zero, *inside = self.distance(np.append(1e-12 * low, w))
         end = min((_limit(self), np.inf), (float(at_zero), 0.0))
         farther = high * 1.5 ** np.arange(2 + max(0, math.ceil(math.log(1e12 * low / high, 1.5))))
-        over = np.flatnonzero(_tail(self, farther) >= min(end[0], *inside, 1.0) * (1 - CERTAIN))
+        over = np.flatnonzero(_tail(self, farther) >= min(end[0], *inside, 1.0) * (1 - self.certain))
         return np.concatenate([[0.0], w, farther[1 : over[0] + 1 if over.size else None]]), *end
 
     def extent(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -119,10 +126,14 @@ class _Axis(_Curve):
 
 
 def _tail(curve: _Axis, start: np.ndarray) -> np.ndarray:
-    """What |1 + W| cannot fall below beyond each `start`, which exceeds every |root|."""
+    """What |1 + W| cannot fall below beyond each `start`, which exceeds every |root|.
+
+    |jw - r| of a real root, and the square root of that of a pair, lies between w sqrt(1 - |r|^2/w^2) and
+    w sqrt(1 + |r|^2/w^2); of a real root it is at least w.
+    """
     excess = len(curve.zeros) - len(curve.poles)
-    up = lambda roots: np.prod(1 + abs(roots) / start[:, None], axis=1)  # noqa: E731
-    down = lambda roots: np.prod(1 - abs(roots) / start[:, None], axis=1)  # noqa: E731
+    up = lambda roots: np.prod(np.sqrt(1 + (abs(roots) / start[:, None]) ** 2), axis=1)  # noqa: E731
+    down = lambda roots: np.prod(np.sqrt(1 - (abs(roots[roots.imag != 0]) / start[:, None]) ** 2), axis=1)  # noqa: E731
     scale = curve.k * start**excess
     least = scale * down(curve.zeros) / up(curve.poles)
     if excess > 0:
@@ -181,7 +192,7 @@ def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float
 
 
 def closest(curve: _Curve) -> tuple[float, float]:
-    """min |1 + W| over the whole curve and where, to a certified relative 1e-6 and in fact to rounding."""
+    """min |1 + W| over the whole curve and where, to the certified relative `certain` and in fact to rounding."""
     grid, best, at = curve.grid()
     a, b = grid[:-1], grid[1:]
     for _ in range(60):
@@ -194,7 +205,7 @@ def closest(curve: _Curve) -> tuple[float, float]:
                 (float(values[i]), float(middle[i])),
                 _polished(curve, max(a[i] - width, 0.0), b[i] + width, float(middle[i])),
             )
-        keep = bound < best * (1 - CERTAIN)
+        keep = bound < best * (1 - curve.certain)
         a, b, middle = a[keep], b[keep], middle[keep]
         if not a.size:
             return best, at

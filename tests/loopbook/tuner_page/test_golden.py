@@ -6,6 +6,9 @@ from pathlib import Path
 
 import pytest
 
+import loopbook as lb
+from loopbook.controllers.pid_forms import PidStandard
+
 GOLDEN = Path(__file__).parent / "golden"
 SHARE = 20  # one loop in so many
 
@@ -53,3 +56,23 @@ def test_a_wrong_core_is_found_out(compare):
     report.differ("Ms", 1.5, 1.5 * (1 + 2e-9), "here")
     report.differ("y, load", 0.0, 2e-8, "there", 1.0)
     assert len(compare.faults(report)) == 2
+
+
+AT_ONCE = {  # processes that act at once, with dead time: their curve goes around a circle for ever
+    "nearly 1": (lb.tf([-1.046, -1.0239], [4.6827, 1], 0.0055), PidStandard(-0.0396, 2.7065, 0.3042, N=100)),
+    "slow": (lb.tf([0.7397, 0.465], [4.633, 1], 3.6911), PidStandard(0.2305, 140.74, 3.2299, b=0, N=20)),
+}
+ASKED = """(num, den, delay) => {
+    const begun = Date.now(), { Ms, Mt, gain } = page.margins(new page.LoopTransfer(num, den, delay));
+    return { Ms: Ms.value, Mt: Mt.value, gain, took: Date.now() - begun };
+}"""
+
+
+@pytest.mark.parametrize("name", AT_ONCE)
+def test_a_curve_that_goes_around_for_ever_is_not_followed_for_ever(ask, name):
+    loop = lb.Loop(*AT_ONCE[name])
+    ours, transfer = loop.margins(), loop.transfer
+    found = ask(ASKED, [float(c) for c in transfer.num], [float(c) for c in transfer.den], transfer.delay)
+    assert [found["Ms"], found["Mt"]] == pytest.approx([ours.Ms.value, ours.Mt.value], rel=1e-9)
+    assert found["gain"] == pytest.approx(ours.gain, rel=1e-9)
+    assert found["took"] < 1000  # ms; a hundred times that when each turn is looked at
