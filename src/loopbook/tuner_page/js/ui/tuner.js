@@ -4,7 +4,7 @@ import { replay, fitOf } from "../core/replay.js";
 import { texts } from "../core/texts.js";
 import { fits, rules, settingsBy } from "../rules/rules.js";
 import { delayMargin, evaluate, processTime, variants } from "./compute.js";
-import { download, h } from "./elements.js";
+import { download, h, on, put } from "./elements.js";
 import { Knob } from "./knobs.js";
 import { BodePlot, NyquistPlot, PolesPlot, SensitivityPlot, TimePlot } from "./plots.js";
 import { chosenInterval, modelToml, programSettings, programTexts, regulatorJson } from "./pythonic.js";
@@ -45,10 +45,10 @@ export class Tuner {
         this.readAddress();
         this.build();
         this.refresh();
-        this.dark?.addEventListener("change", () => this.refresh());
-        globalThis.addEventListener("beforeprint", () => { this.printing = true; this.refresh(); });
-        globalThis.addEventListener("afterprint", () => { this.printing = false; this.refresh(); });
-        globalThis.addEventListener("hashchange", () => { if (this.readAddress()) this.later(); });
+        if (this.dark) on(this.dark, "change", () => this.refresh());
+        on(globalThis, "beforeprint", () => { this.printing = true; this.refresh(); });
+        on(globalThis, "afterprint", () => { this.printing = false; this.refresh(); });
+        on(globalThis, "hashchange", () => { if (this.readAddress()) this.later(); });
         new ResizeObserver(() => this.later()).observe(place);
     }
 
@@ -319,7 +319,7 @@ export class Tuner {
             return [event.clientX - box.left, event.clientY - box.top];
         };
         let move = null;
-        canvas.addEventListener("pointerdown", (event) => {
+        on(canvas, "pointerdown", (event) => {
             if (!this.drawn) return;
             move = plotOf().grab(...at(event), this.drawn);
             if (!move) return;
@@ -328,7 +328,7 @@ export class Tuner {
             canvas.setPointerCapture(event.pointerId);
             event.preventDefault();
         });
-        canvas.addEventListener("pointermove", (event) => {
+        on(canvas, "pointermove", (event) => {
             if (move) {
                 const some = move(...at(event));
                 if (some) this.change(some, false);
@@ -343,8 +343,8 @@ export class Tuner {
             this.settle();
             this.later();
         };
-        canvas.addEventListener("pointerup", end);
-        canvas.addEventListener("pointercancel", end);
+        on(canvas, "pointerup", end);
+        on(canvas, "pointercancel", end);
     }
 
     // --- drawing ---
@@ -495,10 +495,7 @@ export class Tuner {
 
     pinButton(pin, i) {
         const Ms = pin.result?.margins?.Ms.value, line = document.createElementNS("http://www.w3.org/2000/svg", "svg"), stroke = document.createElementNS("http://www.w3.org/2000/svg", "path");
-        stroke.setAttribute("d", "M0 4H26");
-        stroke.setAttribute("stroke", this.colours.pins[i]);
-        stroke.setAttribute("stroke-width", "2.4");
-        stroke.setAttribute("stroke-dasharray", ["7 4", "2 3", "8 3 2 3"][i]);
+        put(stroke, { d: "M0 4H26", stroke: this.colours.pins[i], "stroke-width": 2.4, "stroke-dasharray": ["7 4", "2 3", "8 3 2 3"][i] });
         line.append(stroke);
         const words = Ms ? `Ms ${shown(Ms)}` : "unstable";
         return h("span", {},
