@@ -4,6 +4,7 @@ title = "PID control and pole placement, recomputed"
 subtitle = "Three documents, and every number in them"
 code = "inline"                # or "end" (of each chapter), or "none"
 picture = { notebook = "pid_report/01_terms", figure = 1 }   # of the front page
+pages = ["dial.html"]          # that an installed package offers, see `pages.offered`
 
 [[part]]
 folder = "pid_report"          # of notebooks/
@@ -17,6 +18,7 @@ misprint = "eq-4.4"            # or claim, or value
 verdict = "proved"
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -60,6 +62,7 @@ class Outline:
     parts: tuple[Part, ...]
     code: str = "inline"
     picture: tuple[str, int] | None = None
+    pages: tuple[str, ...] = ()
 
     @property
     def entries(self) -> list[Entry]:
@@ -102,7 +105,8 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
         Part(*named_part, _ordered([e for e in entries if e["folder"] == named_part[0]], order), found)
         for named_part, found, order in zip(named, finds, orders, strict=True)
     ]
-    return Outline(title, subtitle, tuple(parts), code, _picture(content.get("picture"), entries, where))
+    picture = _picture(content.get("picture"), entries, where)
+    return Outline(title, subtitle, tuple(parts), code, picture, pages_of(project))
 
 
 def _ordered(entries: Sequence[Entry], order: Any) -> tuple[Entry, ...]:
@@ -137,3 +141,16 @@ def _picture(told: Any, entries: Sequence[Entry], where: str) -> tuple[str, int]
     if name not in [e["id"] for e in entries]:
         raise UsageError(f"{where}: the picture is of notebooks/{name}.ipynb, which is not there")
     return name, number
+
+
+def pages_of(project: Project) -> tuple[str, ...]:
+    """The names of the pages that the book asks packages for. Raises UsageError for what are no names of HTML files."""
+    where = f"notebooks/{FILE}"
+    try:
+        names = read_toml(project.notebooks_folder / FILE, where).get("pages", [])
+    except TomlError as error:
+        raise UsageError(str(error)) from None
+    plain = isinstance(names, list) and all(isinstance(n, str) and re.fullmatch(r"[\w-]+\.html", n) for n in names)
+    if not plain:
+        raise UsageError(f'{where}: pages = {names!r}: names of files such as "dial.html" are expected')
+    return tuple(names)
