@@ -7,6 +7,8 @@ import numpy as np
 from loopbook.records.steps import noise_level
 
 FAR = 8.0  # standard deviations of the noise, for a sample that both its sides contradict
+FAR_AWAY = 2.0  # times the range of all other samples
+MOST_MISSING = 0.2  # of the samples
 WINDOW = 7  # samples
 LONGEST_SPIKE = 3  # samples
 LEAST_CUT = 0.02  # of the samples: a shorter stand-still at the extreme is no limit
@@ -24,14 +26,37 @@ class Faults:
 
 def find_faults(time: np.ndarray, u: np.ndarray, y: np.ndarray) -> Faults:
     """Outliers and cut-off stretches of the measurement y, shape (n,)."""
-    spikes = _spikes(y, u)
-    limits, notes = _cuts(np.where(spikes, np.nan, y))
+    missing = _stand_ins(y, u)
+    usual = np.interp(np.arange(len(y)), np.flatnonzero(~missing), y[~missing]) if missing.any() else y
+    spikes = _spikes(usual, u)
+    limits, notes = _cuts(np.where(spikes | missing, np.nan, y))
+    if missing.any():
+        value = f"{y[missing][0]:.6g}"
+        notes.insert(0, f"The measurement is {value} at {missing.sum()} samples, far from all others: a logger's sign "
+                        "for a missing value; these samples were left out.")  # fmt: skip
     if spikes.any():
         shown = [f"{y[k]:.4g} at {time[k]:.4g} s" for k in np.flatnonzero(spikes)[:NAMED_ONE_BY_ONE]]
         more = f" and {spikes.sum() - len(shown)} more" if spikes.sum() > len(shown) else ""
         one = "is an outlier" if spikes.sum() == 1 else "are outliers"
         notes.insert(0, f"The measurement {', '.join(shown)}{more} {one} (a sensor's glitch) and left out of the fit.")
-    return Faults(spikes | limits, float(limits.mean()), tuple(notes))
+    return Faults(spikes | limits | missing, float(limits.mean()), tuple(notes))
+
+
+def _stand_ins(y: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Samples of one same value, such as -9999, that is further from all others than these are from each other.
+
+    A value that the measurement has at every sample before the input moves is its rest.
+    """
+    found = np.zeros(len(y), bool)
+    moves = int(np.argmax(u != u[0])) or len(u)
+    for extreme in (y.min(), y.max()):
+        at = y == extreme
+        others = y[~at]
+        if 1 < at.sum() <= MOST_MISSING * len(y) and len(np.unique(others)) > 2 and not at[:moves].all():
+            away = float(np.abs(others - extreme).min())
+            if away > FAR_AWAY * float(np.ptp(others)):
+                found |= at
+    return found
 
 
 def _spikes(y: np.ndarray, u: np.ndarray) -> np.ndarray:
