@@ -21,6 +21,7 @@ from loopbook.records.steps import Steps, find_steps
 
 CONFIDENCE = 0.95
 NO_DELAY = 0.5  # of a sampling interval: a shorter dead time is none
+ALIKE = 0.9  # ratio of two lags from which on the response hardly tells which is which
 WELL_POSED = 1e-6  # of the scaled normal equations' determinant
 NUISANCES = ("rest", "drift", "start")
 
@@ -258,11 +259,18 @@ def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed
     )
     known = [i for i, name in enumerate(names) if {name, *_SAME.get(name, ())} & set(fixed)]
     free = [i for i in range(len(values)) if i not in known]
+    twins = [1, 2] if len(lags) == 2 and lags[1] > ALIKE * lags[0] and not {1, 2} & set(known) else []
+    if twins:  # two lags that are one in the response: they move together, and one of them stands for both
+        jacobian[:, 1] += jacobian[:, 2]
+        free.remove(2)
     found, freedom = intervals.covariance(
         np.column_stack([jacobian[:, free], problem.columns(lags, delay)]), residuals, problem.y
     )
     covariance = np.zeros((len(values), len(values)))
     covariance[np.ix_(free, free)] = found[: len(free), : len(free)]
+    if twins:
+        covariance[2, :] = covariance[1, :]
+        covariance[:, 2] = covariance[:, 1]
     spread = np.sqrt(np.maximum(np.diag(covariance), 0))
     quantile = float(stdtrit(freedom, 0.5 + CONFIDENCE / 2))  # of Student's distribution
     parameters = tuple(

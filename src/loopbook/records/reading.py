@@ -86,6 +86,7 @@ def read_record(
         left_out=faults.left_out,
         cut=faults.cut,
         time_unit=unit,
+        faults=faults.notes,
     )
 
 
