@@ -85,6 +85,8 @@ class Running:
         u to one sample of noise, -S A/(A R + B S); the sum by Parseval, as the mean over the unit circle. With a dead
         time that `is_long` the loop is open to what noise does: S/R with its integrator made to forget.
         """
+        if not self.noise:
+            return 0.0
         regulator = self.sampled.regulator
         if self.is_long:
             top, below = np.array(regulator.S), np.array(regulator.R)

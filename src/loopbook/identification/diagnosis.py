@@ -82,8 +82,8 @@ def disturbed(fit: Fit, least: float = LEAST_DISTURBED) -> str:
     if fit.fit >= least or fit.correlation < DISTURBED:
         return ""
     return (
-        f"something else moved the output: the best model ({fit.structure.name}) leaves {100 - fit.fit:.0f} % of it, and "
-        "what it leaves is no noise, its samples follow each other; record the step while nothing else happens"
+        f"something else moved the output: the best model ({fit.structure.name}) leaves {100 - fit.fit:.0f} % of it, "
+        "and what it leaves is no noise, its samples follow each other; record the step while nothing else happens"
     )
 
 
@@ -93,8 +93,8 @@ def extrapolated(record: Record, steps: Steps, fit: Fit) -> str:
     if fit.structure.integrating or sum(fit.lags) < LONGEST_LAGS * length:
         return ""
     return (
-        f"the model is not determined: its time constants ({sum(fit.lags):.3g} s) are far longer than what was recorded "
-        f"after the first step ({length:.3g} s); record longer"
+        f"the model is not determined: its time constants ({sum(fit.lags):.3g} s) are far longer than what was "
+        f"recorded after the first step ({length:.3g} s); record longer"
     )
 
 

@@ -224,7 +224,7 @@ def _rightmost(loop: LoopTransfer, starts: Iterable[complex]) -> float:
         for _ in range(40):
             (n, dn), (d, dd) = horner.with_slope(loop.num, s), horner.with_slope(loop.den, s)
             turn = cmath.exp(-loop.delay * s) if loop.delay * s.real > -FASTEST else math.inf
-            slope = dd + (dn - loop.delay * n) * turn
+            slope = complex(dd) + complex(dn - loop.delay * n) * turn
             if not slope or not cmath.isfinite(slope):
                 break
             change = (d + n * turn) / slope

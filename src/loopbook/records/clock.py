@@ -58,7 +58,7 @@ def _stamp(text: str, order: str) -> float | None:
 
 
 def times_of_day(texts: Sequence[str]) -> tuple[np.ndarray, str] | None:
-    """(seconds from the first midnight, how the times were read) of a column of times of day; NaN where a cell is blank.
+    """(seconds from the first midnight, how they were read) of a column of times of day; NaN where a cell is blank.
 
     Two parts only ("10:15") are hours and minutes, unless one ever exceeds 23 or the column starts at 00:00, as a
     stop-watch does: then minutes and seconds. None where the column is none.

@@ -43,7 +43,8 @@ WHOLE = {
 QUANTITIES = vocabulary(
     "temp temps temperature temperatur temperatura level niva nivel poziom fullstand fuellstand pegel pressure tryck "
     "druck cisnienie presion flow flode durchfluss przeplyw caudal flujo humidity fukt feuchte wilgotnosc humedad "
-    "concentration koncentration konzentration stezenie concentracion ph co2 o2 ppm thermocouple thermoelement termopar termopara"
+    "concentration koncentration konzentration stezenie concentracion ph co2 o2 ppm thermocouple "
+    "thermoelement termopar termopara"
 )
 MEASURED = vocabulary(
     "y pv output measured measurement process sensor actual feedback value position lage pozycja posicion speed "

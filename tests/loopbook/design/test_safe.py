@@ -276,3 +276,13 @@ def test_processes_without_dead_time_and_of_high_order_are_designed_for(tmp_path
     study = Study(file, **how)
     assert study.running.Ms < 2 and study.running.overshoot < 30 and study.model.latex()
     json.dumps(study.results(), allow_nan=False)
+
+
+def test_a_speed_that_the_process_does_not_allow_is_refused_and_what_lacks_is_in_the_data(example_file):
+    for closed in (0.001, 1.0):
+        with pytest.raises(ModelError, match="faster than the process allows"):
+            _ = Study(example_file, closed_loop=closed).recommendation
+    with pytest.raises(RecordError, match=r"closed loop of 0.001 s .*ask for a slower one"):
+        _ = Study(OWN / "no_dead_time.toml", closed_loop=0.001).recommendation
+    loud = Study(OWN / "time_ms_suffix.csv", speed=1.0).results()
+    assert any("would shake the input" in text for text in loud["mind"])
