@@ -77,8 +77,8 @@ def decide(study: Any) -> tuple[recommendation.Recommendation, selection.Selecte
     if study.knob and not chosen.running.Ms <= FASTEST_PEAK:
         raise ModelError(
             f"a closed loop of {study.knob.closed:.3g} s is faster than the process allows: with "
-            f"{chosen.chosen.candidate.name} Ms would be {chosen.running.Ms:.2f} (2 is the usual limit); the fast end of the knob, --speed 1, is "
-            f"{speed.at_speed(study.model, 1.0).closed:.3g} s"
+            f"{chosen.chosen.candidate.name} Ms would be {chosen.running.Ms:.2f} (2 is the usual limit); "
+            f"the fast end of the knob, --speed 1, is {speed.at_speed(study.model, 1.0).closed:.3g} s"
         )
     reasons = [
         r for r in found.reasons if chosen.chosen.candidate.name == found.chosen.candidate.name or "Next" not in r
