@@ -7,10 +7,10 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit
-from loopbook.identification.least_squares import FitProblem, drifts, linear
+from loopbook.identification.least_squares import FitProblem, linear
 from loopbook.identification.models import FEW_STEPS, FIRST_ORDER, _function
 from loopbook.records.record import Record
-from loopbook.records.steps import Steps
+from loopbook.records.steps import Steps, drifts
 
 BELOW_NOISE = 3.0  # peak to peak of the input's contribution, in standard deviations of the noise
 MOST_CUT = 0.9  # of the samples

@@ -17,7 +17,7 @@ from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
 from loopbook.identification.models import STRUCTURES, Structure
 from loopbook.records.record import Record
-from loopbook.records.steps import Steps, find_steps
+from loopbook.records.steps import Steps, drifts, find_steps
 
 CONFIDENCE = 0.95
 NO_DELAY = 0.5  # of a sampling interval: a shorter dead time is none
@@ -223,20 +223,6 @@ def fit_structure(
         problem = FitProblem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
         lags, delay = problem.solve()
     return _described(problem, lags, delay, fixed)
-
-
-def drifts(record: Record, steps: Steps) -> bool:
-    """Does the output drift before the first step, beyond four standard errors of the slope?"""
-    used = record.used[: steps.before]
-    n = int(used.sum())
-    if n < 10:
-        return False
-    t, y = record.time[: steps.before][used], record.y[: steps.before][used]
-    t = t - t.mean()
-    slope = float(t @ (y - y.mean()) / (t @ t))
-    sigma = max(float(np.std(y - y.mean() - slope * t)) * np.sqrt(n / (n - 2)), steps.noise)
-    spans = np.ptp(record.time), np.ptp(record.y[record.used])
-    return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]
 
 
 def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:

@@ -242,11 +242,15 @@ def _first_root(circle: _Circle, has: float, best: float) -> float:
         if not away.any():  # nothing is left but the solution itself
             break
         if round_ % NEWTON_EVERY == 0:
-            next_ = int(np.argmin(np.where(away.any(axis=0), first, np.inf)))
-            a, f = _middle(boxes)[:, next_].tolist()
-            found = circle.solve(a, f, int(whole[next_]))
-            if found and has * (1 + BESIDE) + BESIDE < found[2] + found[1] < best:
-                best, at = float(found[2] + found[1]), found[:2]
+            waiting = np.where(away.any(axis=0), first, np.inf)
+            next_ = int(np.argmin(waiting))
+            later = int(np.argmin(np.where(whole > whole[next_], waiting, np.inf)))
+            for i in dict.fromkeys((next_, later)):  # the first may end just short of a root: any bound ends the search
+                a, f = _middle(boxes)[:, i].tolist()
+                found = circle.solve(a, f, int(whole[i]))
+                if found and has * (1 + BESIDE) + BESIDE < found[2] + found[1] < best:
+                    best, at = float(found[2] + found[1]), found[:2]
+                    break
         boxes = _halved(boxes, by_f >= by_a + whole * _half(boxes)[0])[:, np.tile(first < best, 2)]
     return best
 
