@@ -17,6 +17,7 @@ from loopbook.records.steps import Steps, find_steps
 
 CLEARLY_BETTER = 10.0  # Akaike's criterion: a difference beyond 10 leaves the other model no support
 POOREST_FIT = 40.0  # percent
+HALF = 0.5  # of the samples at a limit of the sensor: where nothing else can be seen, that is why
 GOOD_FIT, PATTERN = 97.0, 0.5  # percent; correlation of residuals that shows a pattern
 
 
@@ -92,7 +93,11 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
     does not answer, or no model can be relied on.
     """
     _refuse(diagnosis.saturated(record))
-    steps = find_steps(record)
+    try:
+        steps = find_steps(record)
+    except RecordError:
+        _refuse(diagnosis.saturated(record, HALF))
+        raise
     _, fits = fit_all(record, steps, fixed=fixed)
     if not fits:
         raise RecordError(f"no model has the parameters {', '.join(fixed or {})} together; fix K, T (or T1, T2) and L")
@@ -105,27 +110,34 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
     first = fits.get(FIRST_ORDER)
     directions = _directions(record, steps, first, best, n) if first and not fixed else None
     if directions is None:
+        poor = best.fit < GOOD_FIT and not fixed
         _refuse(diagnosis.underdamped(record, steps, best))
-        _refuse(diagnosis.asymmetric(record, steps, best) if best.fit < GOOD_FIT else "")
+        _refuse(diagnosis.asymmetric(record, steps, best) if poor else "")
         _refuse(diagnosis.drift_explains(record, best))
-        _refuse(diagnosis.below_noise(best, steps))
+        lost = diagnosis.below_noise(best, steps)
+        _refuse(lost and (diagnosis.saturated(record, HALF) or lost))
+        _refuse(diagnosis.has_zero(record, steps, best) if poor else "")
+        _refuse(diagnosis.disturbed(best) if poor else "")
         if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
             _refuse(diagnosis.below_sample(record, best) if best.fit >= POOREST_FIT else "")
             _refuse(diagnosis.not_at_rest(record, steps))
+            _refuse(diagnosis.disturbed(best, GOOD_FIT))
             _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
             raise RecordError(
                 f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of "
                 "it; was something else disturbing the process, or is the response not that of a step?"
             )
         chosen = _simplest(fits, criteria, usable)
+        _refuse(diagnosis.drift_explains(record, fits[chosen]))
     else:
         chosen = FIRST_ORDER
         fits[chosen] = directions.worse
         criteria = _criteria(fits, n)
     fit = fits[chosen]
     _refuse(diagnosis.below_sample(record, fit))
+    _refuse(diagnosis.extrapolated(record, steps, fit))
     reasons = _reasons(fits, criteria, chosen, usable) if directions is None else _both(directions)
-    warnings = tuple(_warnings(fit, fits, steps))
+    warnings = (*record.faults, *_warnings(fit, fits, steps))
     return Identified(record, steps, fits, criteria, fit, tuple(reasons), warnings, directions)
 
 

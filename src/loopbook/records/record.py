@@ -29,7 +29,7 @@ class Record:
     shape (n,). assumptions: what the reader took for what, one sentence each. held: (time, u) with the samples too
     whose output is missing, None where none is: the input may step at one of them. others: further inputs that move.
     left_out: samples that a fit must not use (outliers, a sensor at its limit), shape (n,), None for none. cut: the
-    share of samples at a sensor's limit. time_unit: of the file's column.
+    share of samples at a sensor's limit. time_unit: of the file's column. faults: what the sensor did wrong.
 
     >>> import numpy as np
     >>> from loopbook.records.record import Record
@@ -52,6 +52,7 @@ class Record:
     left_out: np.ndarray | None = None
     cut: float = 0.0
     time_unit: str = "s"
+    faults: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         arrays = [np.asarray(a, float) for a in (self.time, self.u, self.y)]
