@@ -195,7 +195,7 @@ def _run(project: Project, job: Job, wanted: Wanted, remembers: bool) -> "_Resul
         atomic.write(stamps.failed_path(project, notebook), dump(ran.content))
         return Done(notebook, 0, [replace(ran.failure, repeat=repeat(job))], warnings, ran=True)
     warnings += [[cell, text] for cell, text in _not_seen(project, source, ran)]
-    used = sorted({*inputs.seen(project, source, ran.depends, (*fingerprint.RUNS, *fingerprint.EXPORTS))})
+    used = sorted({*inputs.seen(project, source, ran.depends, (*fingerprint.RUNS, *fingerprint.WRITES))})
     used = sorted({*used, *inputs.declared(project, source)})
     prints = fingerprint.of_run(project, source, used, since=began)
     return _result(ran.content, used, prints, ran.seconds, warnings)
