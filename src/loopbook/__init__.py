@@ -50,6 +50,9 @@ TABLE = {
     "tune": "loopbook.tuning.by_name:tune",
     "Tuning": "loopbook.tuning.result:Tuning",
     "place": "loopbook.pole_placement.place:place",
+    # how it is typed into a controller
+    "enter": "loopbook.vendors.entered:enter",
+    "vendor_forms": "loopbook.vendors.entered:vendor_forms",
     # what is known of the process
     "StepData": "loopbook.experiments.data:StepData",
     "IntegratingStepData": "loopbook.experiments.data:IntegratingStepData",

@@ -44,6 +44,8 @@ from loopbook.records.record import Record as Record
 from loopbook.response.simulation import simulate as simulate
 from loopbook.tuning.by_name import tune as tune
 from loopbook.tuning.result import Tuning as Tuning
+from loopbook.vendors.entered import enter as enter
+from loopbook.vendors.entered import vendor_forms as vendor_forms
 
 TABLE: dict[str, str]
 __all__ = [
@@ -74,6 +76,7 @@ __all__ = [
     "curves",
     "design",
     "documents",
+    "enter",
     "experiments",
     "from_control",
     "identify",
@@ -91,4 +94,5 @@ __all__ = [
     "to_control",
     "tune",
     "tuning",
+    "vendor_forms",
 ]

@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+from loopbook.design.controllers import entered_forms
+
 
 def results(study: Any) -> dict[str, Any]:
     """The design as plain data: process, rule, the program's numbers, what to expect of it, what to mind.
@@ -39,5 +41,6 @@ def results(study: Any) -> dict[str, Any]:
         **study.program.data(),
         "limits_confirmed": study.actuator.confirmed,
         "expected": study.running.expected,
+        "enter": [one.data() for one in entered_forms(study)],
         "mind": study.mind,
     }

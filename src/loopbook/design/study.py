@@ -68,6 +68,8 @@ class Study:
     closed_loop: float = 0.0
     known: str = ""
     unlimited: bool = False
+    y_low: float | None = None
+    y_high: float | None = None
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -75,6 +77,11 @@ class Study:
             raise ModelError(f"K180 = {self.K180}, T180 = {self.T180}: an ultimate point needs both, or neither")
         if self.u_low is not None and self.u_high is not None and not self.u_low < self.u_high:
             raise ModelError(f"u_low = {self.u_low} must be below u_high = {self.u_high}")
+        ends = (self.y_low, self.y_high)
+        if ends != (None, None) and (None in ends or not ends[0] < ends[1]):  # type: ignore[operator]
+            raise ModelError(
+                f"y_low = {self.y_low}, y_high = {self.y_high}: a measuring range has both, the low end first"
+            )
         if self.speed is not None and self.closed_loop:
             raise ModelError("speed and closed loop are two ways to say one thing: give one of them")
 
