@@ -14,6 +14,10 @@ def results(study: Any) -> dict[str, Any]:
     chosen, model = study.recommendation.chosen, study.model
     names = ("gain", "time_constants", "delay", "integrating")
     process = dict(zip(names, (model.gain, list(model.lags), model.delay, model.integrating), strict=True))
+    if model.damping is not None:
+        process["damping"] = model.damping
+    if model.zero:
+        process["zero"] = model.zero
     found = study.identified
     fit = {"percent": found.chosen.fit, "rms": found.chosen.rmse} if found else None
     widths = {p.name: p.half_width for p in found.chosen.parameters} if found else None

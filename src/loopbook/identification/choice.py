@@ -10,6 +10,7 @@ from loopbook.identification.directions import CLEARLY_DIFFERENT, Directions, fi
 from loopbook.identification.fit import Fit
 from loopbook.identification.least_squares import fit_all
 from loopbook.identification.models import FIRST_ORDER, SECOND_ORDER, Structure
+from loopbook.identification.unusual import asks, unusual_fits
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record, RecordError
@@ -104,8 +105,14 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
     usable = [s for s in fits if determined(fits[s])]
     first = fits.get(FIRST_ORDER)
     directions = _directions(record, steps, first, best, n) if first and not fixed else None
+    strange = _unusual(record, steps, fits, best, n) if directions is None else None
+    if strange is not None and fixed:
+        _refuse(diagnosis.rings(strange))
+    elif strange is not None:
+        fits, best = {**fits, strange.structure: strange}, strange
+        criteria = _criteria(fits, n)
+        usable.append(strange.structure)
     if directions is None:
-        _refuse(diagnosis.underdamped(record, steps, best))
         _refuse(diagnosis.asymmetric(record, steps, best) if best.fit < GOOD_FIT else "")
         _refuse(diagnosis.drift_explains(record, best))
         _refuse(diagnosis.below_noise(best, steps))
@@ -173,6 +180,19 @@ def _directions(record: Record, steps: Steps, first: Fit, best: Fit, n: int) -> 
     separate = abs(up - down) > max(f.parameter("T").half_width for f in (directions.up, directions.down))
     different = max(up, down) > CLEARLY_DIFFERENT * min(up, down) and separate
     return directions if different and gain > CLEARLY_BETTER and directions.up.fit > 80 else None
+
+
+def _unusual(record: Record, steps: Steps, fits: dict[Structure, Fit], best: Fit, n: int) -> Fit | None:
+    """A shape that no lags have, where it explains the record clearly better than every one of lags."""
+    if not asks(best, steps):
+        return None
+    found = unusual_fits(record, steps, best.nuisance)
+    if not found:
+        return None
+    better = min(found, key=lambda fit: fit.rmse)
+    effective = _effective([*fits.values(), *found], n)
+    gain = _criterion(best, _size(best), effective) - _criterion(better, _size(better), effective)
+    return better if gain > CLEARLY_BETTER and better.fit > POOREST_FIT else None
 
 
 def _both(directions: Directions) -> list[str]:

@@ -88,10 +88,8 @@ class FitProblem:
         """Time constants from the search variables: log T, then the ratio T2/T1 in (0, 1]."""
         if self.structure.lags == 0:
             return ()
-        first = float(np.exp(theta[0]))
-        if self.structure.lags == 1:
-            return (first,)
-        return (first, min(self.fixed.get("T2", first * float(theta[1])), first))
+        found = self.structure.numbers(float(np.exp(theta[0])), theta[1:-1])
+        return (found[0], min(self.fixed["T2"], found[0])) if "T2" in self.fixed and len(found) == 2 else found
 
     def pinned(self) -> dict[int, float]:
         """Search variables that are fixed, by their place."""
@@ -108,7 +106,7 @@ class FitProblem:
         sampling = self.record.sampling
         delays = np.concatenate([[0.0], np.geomspace(min(sampling, 0.4 * self.length), 0.5 * self.length, 11)])
         logs = np.log(np.geomspace(max(sampling, self.length / 500), 3 * self.length, 12))
-        axes = [*(logs, np.array([0.15, 0.6]))[: self.structure.lags], delays]
+        axes = [*([logs] if self.structure.lags else []), *map(np.array, self.structure.axes), delays]
         pinned = self.pinned()
         grids = [np.array([pinned[i]]) if i in pinned else axis for i, axis in enumerate(axes)]
         return np.array(np.meshgrid(*grids, indexing="ij")).reshape(len(grids), -1).T
@@ -155,8 +153,9 @@ class FitProblem:
         if not free:
             return self.lags(starts[0]), float(starts[0][-1])
         costs = np.array([self.rough_cost(theta) for theta in starts])
-        lower = np.array([*[np.log(self.record.sampling / 20), 1e-3][: self.structure.lags], 0.0])[free]
-        upper = np.array([*[np.log(30 * self.length), 1.0][: self.structure.lags], 0.9 * self.length])[free]
+        lags, s = self.structure.lags > 0, self.structure
+        lower = np.array([*[np.log(self.record.sampling / 20)] * lags, *s.low, 0.0])[free]
+        upper = np.array([*[np.log(30 * self.length)] * lags, *s.high, 0.9 * self.length])[free]
         found = []
         for i in _apart(costs, starts):
             start = starts[i]
@@ -246,12 +245,13 @@ def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed
     residuals, coefficients = problem.eliminated(lags, delay)
     gain = float(coefficients[-1])
     values = np.array([gain, *lags, delay])
-    names = ["Kv" if structure.integrating else "Kp", *(["T"] if len(lags) == 1 else ["T1", "T2"][: len(lags)]), "L"]
+    names = ["Kv" if structure.integrating else "Kp", *structure.names, "L"]
 
     def predicted(p: np.ndarray) -> np.ndarray:
         return p[0] * structure.response(problem.time, steps.list, tuple(p[1:-1]), p[-1])
 
-    moves = np.maximum(np.abs(values), [1e-12, *[record.sampling] * (len(values) - 1)]) * 1e-4
+    floors = [1e-12, *[0.1 if name == "zeta" else record.sampling for name in names[1:]]]
+    moves = np.maximum(np.abs(values), floors) * 1e-4
     moves[-1] = max(moves[-1], record.sampling)  # the response bends at the dead time: look across a whole sample
     jacobian = np.column_stack(
         [(predicted(values + e) - predicted(values - e)) / (2 * e.sum()) for e in np.diag(moves)]
@@ -273,7 +273,7 @@ def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed
         parameters,
         residuals,
         coefficients,
-        settled=float("inf") if structure.integrating else float(after / sum(lags)),
+        settled=float("inf") if structure.integrating else float(after / structure.span(lags)),
         covariance=covariance,
         answer=float(np.ptp(predicted(values))),
     )
@@ -293,7 +293,7 @@ def fit_all(
 
 def _has(structure: Structure, fixed: Mapping[str, float]) -> bool:
     """Has the structure the parameters that are fixed?"""
-    lags = {0: set(), 1: {"T"}, 2: {"T1", "T2"}}[structure.lags] | ({"T1"} if structure.integrating else set())
+    lags = set(structure.names) | ({"T1"} if structure.integrating else set())
     wanted = {name for name in fixed if name.startswith("T")}
     gain = {"K", "Kv"} if structure.integrating else {"K", "Kp"}
     return wanted <= lags and {name for name in fixed if name.startswith("K")} <= gain

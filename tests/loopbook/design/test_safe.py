@@ -9,6 +9,7 @@ import pytest
 
 from loopbook.design.model import ModelError
 from loopbook.design.study import Study
+from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
 from tools import example_record as example
@@ -187,7 +188,6 @@ REFUSED = {
     "no answer": (STEP, _noise(len(T), 1.0), "does not answer|lost in the noise|not determined"),
     "drift": (STEP, 0.02 * T + _noise(len(T), 0.02), "a drift explains"),
     "closed loop": (*_pi_loop(), "closed loop"),
-    "underdamped": (STEP, _ringing() + _noise(len(T), 0.01), "underdamped: its response rings with a period of 31"),
     "saturated": (STEP, np.minimum(LAG, 0.02), "saturated|not determined|below|shorter"),
     "faster than the samples": (STEP, 2 * STEP + _noise(len(T), 0.001), "shorter than the sampling interval"),
     "asymmetric": (
@@ -204,6 +204,28 @@ def test_a_record_that_gives_no_regulator_is_refused_with_the_true_reason(tmp_pa
     with pytest.raises(RecordError, match=message) as refused:
         Study(written(tmp_path / "r.csv", T, u, y)).results()
     assert "leaves 0 %" not in str(refused.value)
+
+
+def test_a_process_that_rings_gets_a_regulator_that_does_not(tmp_path):
+    file = written(tmp_path / "r.csv", T, STEP, _ringing() + _noise(len(T), 0.01))
+    study = Study(file)
+    assert study.model.damping == pytest.approx(0.148, abs=0.01)
+    assert study.results()["process"]["damping"] == study.model.damping
+    truth = Process([2.0 * (0.2**2 + 0.03**2)], [1.0, 0.06, 0.2**2 + 0.03**2])
+    loop = Loop(truth, study.recommendation.chosen.candidate.pid)
+    assert loop.is_stable and loop.margins().Ms.value < 2
+    with pytest.raises(RecordError, match="underdamped: its response rings with a period of 31"):
+        Study(file, known="T=20").results()
+
+
+def test_a_process_that_starts_the_wrong_way_is_seen_and_kept_slow(tmp_path):
+    truth = Process([-12.0, 2.0], [50.0, 15.0, 1.0], 2.0)
+    file = written(tmp_path / "r.csv", T, STEP, truth.step(T - 50) + _noise(len(T), 0.02))
+    study = Study(file)
+    assert study.model.zero == pytest.approx(6.0, rel=0.15)
+    assert study.results()["process"]["zero"] == study.model.zero
+    loop = Loop(truth, study.recommendation.chosen.candidate.pid)
+    assert loop.is_stable and loop.margins().Ms.value < 2
 
 
 def test_parameters_that_the_user_knows_are_kept(tmp_path):
