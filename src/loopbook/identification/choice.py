@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from loopbook.identification import diagnosis
+from loopbook.identification.closed_loop import closed_steps, fit_all_closed, recognised
 from loopbook.identification.directions import CLEARLY_DIFFERENT, Directions, fit_directions
 from loopbook.identification.fit import Fit
 from loopbook.identification.least_squares import fit_all
@@ -93,6 +94,8 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
     does not answer, or no model can be relied on.
     """
     _refuse(diagnosis.saturated(record))
+    if recognised(record):
+        return _closed(record, fixed)
     steps = find_steps(record)
     _, fits = fit_all(record, steps, fixed=fixed)
     if not fits:
@@ -134,6 +137,32 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
     reasons = _reasons(fits, criteria, chosen, usable) if directions is None else _both(directions)
     warnings = tuple(_warnings(fit, fits, steps))
     return Identified(record, steps, fits, criteria, fit, tuple(reasons), warnings, directions)
+
+
+def _closed(record: Record, fixed: Mapping[str, float] | None) -> Identified:
+    """The same with a regulator at work, from its set-point steps."""
+    steps, moves = closed_steps(record)
+    fits = fit_all_closed(record, steps, fixed)
+    criteria = _criteria(fits, len(record.time))
+    usable = [s for s in fits if determined(fits[s])]
+    best = min(fits.values(), key=lambda fit: fit.rmse)
+    if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
+        _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
+        raise RecordError(
+            f"no model explains the closed loop: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of the "
+            "output; was a load moving it too? Step the set-point further, or record in manual"
+        )
+    chosen = _simplest(fits, criteria, usable)
+    _refuse(diagnosis.below_sample(record, fits[chosen]))
+    many = "one set-point step" if moves == 1 else f"{moves} set-point steps"
+    reasons = [
+        f"The record was made in closed loop: the input follows set-point and measurement. The process was identified "
+        f"from {many} by prediction error with a model of the noise, which is consistent with a regulator at work.",
+        *_reasons(fits, criteria, chosen, usable),
+    ]
+    return Identified(
+        record, steps, fits, criteria, fits[chosen], tuple(reasons), tuple(_warnings(fits[chosen], fits, steps))
+    )
 
 
 def _refuse(reason: str) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
-from loopbook.identification.models import STRUCTURES, Structure
+from loopbook.identification.models import RINGS, STRUCTURES, Structure
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps, find_steps
 
@@ -90,6 +90,11 @@ class FitProblem:
             return ()
         found = self.structure.numbers(float(np.exp(theta[0])), theta[1:-1])
         return (found[0], min(self.fixed["T2"], found[0])) if "T2" in self.fixed and len(found) == 2 else found
+
+    def theta(self, lags: tuple[float, ...], delay: float) -> np.ndarray:
+        """The search variables of lags and dead time, the inverse of `lags`."""
+        others = lags[1:] if self.structure.parts == RINGS else tuple(T / lags[0] for T in lags[1:])
+        return np.array([*([np.log(lags[0])] if lags else []), *others, delay])
 
     def pinned(self) -> dict[int, float]:
         """Search variables that are fixed, by their place."""
@@ -220,7 +225,7 @@ def fit_structure(
     if 0 < delay < NO_DELAY * record.sampling and "L" not in fixed:
         problem = FitProblem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
         lags, delay = problem.solve()
-    return _described(problem, lags, delay, fixed)
+    return described(problem, lags, delay, fixed)
 
 
 def drifts(record: Record, steps: Steps) -> bool:
@@ -237,7 +242,7 @@ def drifts(record: Record, steps: Steps) -> bool:
     return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]
 
 
-def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
+def described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
     """Everything that is said of a fit, from its optimum."""
     from scipy.special import stdtrit
 

@@ -39,7 +39,7 @@ class Structure:
         """Is it a structure of lags, tried on every record?"""
         return not self.parts
 
-    def numbers(self, first: float, others: Sequence[float]) -> tuple[float, ...]:
+    def numbers(self, first: float, others: Sequence[float] | np.ndarray) -> tuple[float, ...]:
         """The shape's numbers from the search: the second lag and the zero as shares of the first, damping as it is."""
         if not self.lags:
             return ()
