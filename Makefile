@@ -11,7 +11,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test whole quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -29,11 +29,8 @@ NEEDS_PYTHON = $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3,))' >/de
 all: $(READY) ## run all notebooks and write all reports (the default)
 	@$(BIN)/loopbook --root . build $(jobs) $(if $(FROZEN),--frozen)
 
-test: $(READY) ## run the tests, of long surveys a seeded share
-	@$(BIN)/python -m pytest -n auto --dist loadfile
-
-whole: $(READY) ## the test suite with every survey whole, of which `make test` runs a seeded share
-	@$(BIN)/python -m pytest -n auto --dist loadfile --whole
+test: $(READY) ## run the tests, of long surveys a seeded share; make test WHOLE=1: every survey whole
+	@$(BIN)/python -m pytest -n auto --dist loadfile $(if $(WHOLE),--whole)
 
 quick: $(READY) ## while you work: no kernel, no compiler, nothing that takes long
 	@$(BIN)/python -m pytest -n auto --dist loadfile --quick
@@ -55,7 +52,7 @@ prove-design: $(READY) ## design for 300 synthetic records and run every loop on
 	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300
 
 docs: all $(VENV)/ready-docs ## the documentation as a site that works offline: build/site/index.html
-	@$(BIN)/python tools/docs_site/build.py
+	@PYTHONPATH=tools $(BIN)/python -m docs_site.build
 
 difference: all $(VENV)/ready-docs ## what changed in ledger and pages since a commit: make difference REF=main [OLD=its reports]
 	@mkdir -p build/difference
@@ -70,6 +67,7 @@ core: dist ## the core's tests against the wheel in an environment with NumPy, S
 	@$(PYTHON) -m venv build/core
 	@build/core/bin/python -m pip install --quiet build/dist/*.whl pytest hypothesis
 	@build/core/bin/python tools/core_tests.py
+
 prove-scaling: $(READY) ## 2,000 seeded loops in other units of time, y and u: what comes out otherwise
 	@$(BIN)/python tests/loopbook/scaling/prove_scaling.py 2000
 
@@ -77,7 +75,7 @@ bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench
 
 profile: $(READY) ## the slowest cells and imports of the notebooks: make profile [ONLY=pid_report]
-	@$(BIN)/python tools/profile.py $(ONLY)
+	@$(BIN)/python tools/slow_cells.py $(ONLY)
 
 verify: $(READY) ## build twice under other folders, homes, users, languages and compare every byte
 	@$(BIN)/loopbook --root . verify

@@ -35,7 +35,9 @@ def pytest_addoption(parser):
 def pytest_configure(config):
     config.addinivalue_line("markers", f"builds: {BUILDS}")
     config.addinivalue_line("markers", "seeds(part, whole): a test for each seed, the first ones alone in `make test`")
-    config.addinivalue_line("markers", "whole: one more of a kind that `make test` tries; for `make whole` alone")
+    config.addinivalue_line(
+        "markers", "whole: one more of a kind that `make test` tries; for `make test WHOLE=1` alone"
+    )
     config.addinivalue_line("markers", "long: computes for over 0.4 s (surveys, many seeds); left out by --quick")
     if config.getoption("--quick"):
         _refuse_builders()
@@ -93,7 +95,7 @@ def _refuse_builders():
 
 @pytest.fixture(scope="session")
 def share(request):
-    """How much of a long survey runs: share(8, 40) is 8 in `make test` and 40 in `make whole`."""
+    """How much of a long survey runs: share(8, 40) is 8 in `make test` and 40 in `make test WHOLE=1`."""
     return lambda part, whole: whole if request.config.getoption("--whole") else part
 
 

@@ -166,6 +166,9 @@ def add(folder, name):
 
 
 if __name__ == "__main__":
+    if any(word.startswith("-") for word in sys.argv[1:]):
+        print(__doc__)
+        sys.exit(0 if "--help" in sys.argv else 2)
     where = sys.argv[1] if len(sys.argv) > 1 else ".venv"
     try:
         if len(sys.argv) > 2:

@@ -31,7 +31,6 @@ from pathlib import Path
 from queue import Queue
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).parent))
 from mutations import Mutant, claim_mutants, derivation_mutants, importers, input_mutants, value_mutants
 
 ROOT = Path(__file__).resolve().parent.parent

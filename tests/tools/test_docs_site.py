@@ -1,19 +1,17 @@
 """The site's sources: a page for each public name, calls that run, links that a missing file betrays."""
 
 import re
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from docs_site import reference
+from docs_site.docstrings import as_rst
 
 import loopbook as lb
 
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "tools/docs_site"))
-import reference  # noqa: E402
-from docstrings import as_rst  # noqa: E402
 
 
 def test_every_public_name_has_a_page_that_says_something(tmp_path):

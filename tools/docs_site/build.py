@@ -9,10 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-import gallery
-import reference
-import rules
 from bs4 import BeautifulSoup
+from docs_site import gallery, reference, rules
 from sphinx.cmd.build import build_main
 
 from notebook_reports.export.write.mathematics_font import font_face
@@ -111,5 +109,4 @@ def dead_links(site: Path) -> Iterator[tuple[str, str]]:
 
 
 if __name__ == "__main__":
-    sys.path.insert(0, str(HERE))
     sys.exit(main())

@@ -1,14 +1,9 @@
 """Sphinx's settings. No time stamps, no network: the same sources give the same site."""
 
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parent))
-
 project = "loopbook"
 author = "the loopbook developers"
 project_copyright = "text and figures CC BY 4.0, code MIT"
-extensions = ["myst_parser", "sphinx_copybutton", "mathml"]
+extensions = ["myst_parser", "sphinx_copybutton", "docs_site.mathml"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_inline"]
 myst_heading_anchors = 3
 html_math_renderer = "mathml"

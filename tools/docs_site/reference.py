@@ -6,9 +6,9 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-import loopbook
+from docs_site.docstrings import as_rst
 
-from docstrings import as_rst  # isort: skip (beside this file)
+import loopbook
 
 GROUPS = {
     "What is controlled": "loopbook.process",
@@ -90,7 +90,7 @@ def _entry(kind: str, title: str, found: object) -> list[str]:
     called = "" if kind == "property" else _signature(found)
     return [
         f".. py:{kind}:: {title}{called}",
-        "   :no-index:" if kind == "never" else "",
+        "",
         *(f"   {line}".rstrip() for line in text),
     ]
 

@@ -20,13 +20,13 @@ from loopbook.controllers.rst import Rst
 from loopbook.design.model import Model
 from loopbook.design.program import SampledProgram
 from loopbook.loop.sampled import SampledLoop
-from loopbook.process.sampled import sample
+from loopbook.loop.sensitivity_peaks import sampled_peaks
 from loopbook.response.simulation import Simulation, simulate
 
 SAMPLES = 20000
 SETTLED = 0.02  # of the step
 AT_LIMIT = 1e-9  # of the limits' distance
-CIRCLE = 1 << 15  # points on it
+CIRCLE = 1 << 14  # points on half of it
 LONGEST_DELAY = 200  # samples: beyond, sampling costs nothing that could be seen and the polynomials grow long
 
 
@@ -59,8 +59,12 @@ class Running:
     milder: Model | None = None
 
     @cached_property
+    def regulator(self) -> Rst:
+        return polynomials(self.program)
+
+    @cached_property
     def sampled(self) -> SampledLoop:
-        return SampledLoop(self.model.process, polynomials(self.program))
+        return SampledLoop(self.model.process, self.regulator)
 
     @property
     def is_long(self) -> bool:
@@ -72,33 +76,25 @@ class Running:
         """Of the sampled loop, infinite where it is unstable; NaN where `is_long`."""
         if self.is_long:
             return math.nan
-        n, d = self.sampled.transfer
-        if not self.sampled.is_stable:
-            return math.inf
-        z = np.exp(-1j * np.concatenate([np.geomspace(1e-4, 1, 1500) * np.pi]))
-        G = np.polyval(n[::-1], z) / np.polyval(d[::-1], z)
-        return float(np.max(1 / np.abs(1 + G)))
+        return sampled_peaks(self.sampled.on_circle)[0].value if self.sampled.is_stable else math.inf
 
     @cached_property
     def input_noise(self) -> float:
         """Standard deviation of u [u] that the measurement's noise makes: sigma sqrt(sum of h_k^2), h_k the response of
-        u to one sample of noise, -S A/(A R + B S); the sum by Parseval, as the mean over the unit circle. With a dead
-        time that `is_long` the loop is open to what noise does: S/R with its integrator made to forget.
+        u to one sample of noise, -C/(1 + C G) with C = S/R; the sum by Parseval, as the mean over the unit circle.
+        With a dead time that `is_long` the loop is open to what noise does: C with its integrator made to forget.
         """
-        regulator = self.sampled.regulator
+        if not self.is_long and not self.sampled.is_stable:
+            return math.inf
+        angle = (np.arange(CIRCLE) + 0.5) * np.pi / CIRCLE
+        z = np.exp(-1j * angle)
+        R, S = np.array(self.regulator.R), np.array(self.regulator.S)
         if self.is_long:
-            top, below = np.array(regulator.S), np.array(regulator.R)
-            below = np.convolve(below, [1.0]) * np.power(1 - 1 / LONGEST_DELAY, np.arange(len(below)))
-        else:
-            B, A = sample(self.model.process, float(self.program.settings.h)).polynomials
-            top = np.convolve(regulator.S, A)
-            below, other = np.convolve(regulator.R, A), np.convolve(regulator.S, B)
-            below = np.pad(below, (0, max(len(other) - len(below), 0)))
-            below[: len(other)] += other
-            if not self.sampled.is_stable:
-                return math.inf
-        on_circle = np.fft.fft(top, CIRCLE) / np.fft.fft(below, CIRCLE)
-        return self.noise * float(np.sqrt(np.mean(np.abs(on_circle) ** 2)))
+            R = R * np.power(1 - 1 / LONGEST_DELAY, np.arange(len(R)))
+        answer = np.polyval(S[::-1], z) / np.polyval(R[::-1], z)
+        if not self.is_long:
+            answer = answer / (1 + self.sampled.at(angle))
+        return self.noise * float(np.sqrt(np.mean(np.abs(answer) ** 2)))
 
     def _limits(self) -> tuple[float, float]:
         s = self.program.settings

@@ -145,7 +145,7 @@ def found_out(language: str) -> str:
 
 
 def tried() -> list:
-    """The first mutation of each name, which `make test` tries too, and the others, for `make whole`."""
+    """The first mutation of each name, which `make test` tries too, and the others, for `make test WHOLE=1`."""
     met: set[str] = set()
     found = []
     for mutation in MUTATIONS:

@@ -261,3 +261,4 @@ def test_processes_without_dead_time_and_of_high_order_are_designed_for(tmp_path
     study = Study(file, **how)
     assert study.running.Ms < 2 and study.running.overshoot < 30 and study.model.latex()
     json.dumps(study.results(), allow_nan=False)
+    assert study.running.input_noise == 0.0  # no record, no noise

@@ -3,8 +3,8 @@
 import re
 
 import pytest
-from notebook_reports.export.write.page_words import in_the_text, text_of
-from notebook_reports.export.write.pdf_text import PdfText
+from tools.pages.page_words import in_the_text, text_of
+from tools.pages.pdf_text import PdfText
 
 from notebook_reports.display import Table
 from notebook_reports.export.exporters.choose import export

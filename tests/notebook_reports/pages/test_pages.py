@@ -5,6 +5,8 @@ import json
 import re
 
 import pytest
+from tools.pages.page_words import in_the_text, text_of
+from tools.pages.pdf_text import PdfText
 
 from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.memory import stamps
@@ -297,9 +299,6 @@ def test_a_card_begins_as_the_chapter_does():
 
 
 def pdf_words(pdf):
-    from notebook_reports.export.write.page_words import in_the_text, text_of
-    from notebook_reports.export.write.pdf_text import PdfText
-
     return text_of(in_the_text(PdfText(pdf)))
 
 
