@@ -4,6 +4,18 @@ from pathlib import Path
 from typing import Any
 
 from loopbook.design.controllers import entered_forms
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
+
+
+def ultimate_point(model: Any) -> dict[str, float]:
+    """K180 and T180 as measured, else those of the model; empty where it has none."""
+    if model.frequency is not None:
+        return {"K180": model.frequency.K180, "T180": model.frequency.T180}
+    try:
+        point = ultimate(model.upright.process)
+    except NoSuchFrequency:
+        return {}
+    return {"K180": point.K180, "T180": point.T180}
 
 
 def results(study: Any) -> dict[str, Any]:
@@ -35,10 +47,13 @@ def results(study: Any) -> dict[str, Any]:
                 "up": {"time_constants": list(found.directions.up.lags)},
                 "down": {"time_constants": list(found.directions.down.lags)},
             }
+    swing = found.oscillation if found else None
+    point = ultimate_point(model) if swing else None
     return {
         "data": Path(study.data).name,
         "record": record,
         **({"signals": signals} if signals else {}),
+        **({"oscillation": {"kind": swing.kind, "periods": swing.periods, **point}} if swing and point else {}),
         "process": {**process, "source": model.source, "fit": fit, "half_widths_95": widths},
         "aim": study.aim,
         "rule": chosen.candidate.name,

@@ -105,7 +105,8 @@ class Study:
         """What is designed for: of a process that is faster one way, the model of that way."""
         measured = FrequencyData(self.K180, self.T180) if self.K180 else None
         if self.identified is not None:
-            return from_identified(self.identified, measured)
+            swing = self.identified.oscillation
+            return from_identified(self.identified, measured or (swing.frequency if swing else None))
         model = read_model(self.data)
         if self.known:
             model = with_fixed(model, read_fixed(self.known))

@@ -67,7 +67,8 @@ def closed_steps(record: Record) -> tuple[Steps, int]:
     if not len(moves) or float(np.ptp(setpoint)) < LEAST_STEP * noise:
         raise RecordError(
             "the record was made in closed loop and its set-point stands still: only load moves it, and the input "
-            "shows the regulator and not the process; step the set-point, or put the regulator in manual and step the input"
+            "shows the regulator and not the process; step the set-point, or put the regulator in manual and step the "
+            "input"
         )
     if np.ptp(np.diff(record.time)) > UNEVEN * record.sampling:
         raise RecordError(

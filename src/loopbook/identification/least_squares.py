@@ -16,12 +16,12 @@ import numpy as np
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
 from loopbook.identification.models import RINGS, STRUCTURES, Structure
+from loopbook.identification.normal_equations import linear
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps, find_steps
 
 CONFIDENCE = 0.95
 NO_DELAY = 0.5  # of a sampling interval: a shorter dead time is none
-WELL_POSED = 1e-6  # of the scaled normal equations' determinant
 NUISANCES = ("rest", "drift", "start")
 
 
@@ -171,19 +171,6 @@ class FitProblem:
         theta = starts[i].copy()
         theta[free] = part
         return self.lags(theta), float(theta[-1])
-
-
-def linear(columns: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Coefficients of the least squares, shape (m,): by the normal equations of scaled columns where those are well
-    posed, which is four times as fast for a few columns.
-    """
-    sizes = np.sqrt(np.einsum("ij,ij->j", columns, columns))
-    if (sizes > 0).all():
-        scaled = columns / sizes
-        gram = scaled.T @ scaled
-        if len(sizes) == 1 or np.linalg.det(gram) > WELL_POSED:
-            return np.linalg.solve(gram, scaled.T @ y) / sizes
-    return np.linalg.lstsq(columns, y, rcond=None)[0]
 
 
 def _apart(costs: np.ndarray, starts: np.ndarray) -> list[int]:

@@ -1,4 +1,4 @@
-"""Records made with the regulator at work: recognised, identified from set-point steps, refused where only load acts."""
+"""Records of a regulator at work: recognised, identified from set-point steps, refused where only load acts."""
 
 import numpy as np
 import pytest
