@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loopbook.design import candidates as rules
-from loopbook.design import evaluation, speed
+from loopbook.design import evaluation, recorded, speed
 from loopbook.design.decision import conditions, curve, decide
 from loopbook.design.limits import Limits, find_limits, rest_input
 from loopbook.design.model import Model, ModelError, from_fit, from_identified
@@ -19,7 +19,6 @@ from loopbook.design.results import results
 from loopbook.design.selection import horizon
 from loopbook.design.speed import time_scale
 from loopbook.experiments.data import FrequencyData
-from loopbook.identification.choice import identify
 from loopbook.records.reading import read_record
 from loopbook.records.summary import line
 
@@ -49,6 +48,9 @@ class Study:
     between the samples of a record without a time column. speed: from 0 (slow) to 1 (fast), and closed_loop: the wanted
     time constant [s]; at most one of them, None and 0 for a rule's own speed. known: parameters of the model fixed by
     the user, "K=2, T=30". seed: of the drawn models.
+    y_low, y_high [y]: the measuring range, for controllers that count in percent of it; None for not given. more:
+    further records of the same process, file names separated by semicolons, beside data; they are pooled, the last of
+    three or more is held back.
     """
 
     data: str | Path
@@ -70,6 +72,7 @@ class Study:
     unlimited: bool = False
     y_low: float | None = None
     y_high: float | None = None
+    more: str = ""
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -98,7 +101,7 @@ class Study:
     @cached_property
     def identified(self) -> "Identified | None":
         """The record with its fitted models; None where a model was given."""
-        return identify(self.record, read_fixed(self.known)) if self.record is not None else None
+        return recorded.identified(self)
 
     @cached_property
     def model(self) -> Model:
