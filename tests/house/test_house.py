@@ -14,6 +14,7 @@ LONG: dict[str, str] = {
     "notebook_reports/ledger/printed_data.py": "one format of data, a class for each kind of entry",
     "notebook_reports/pages/ledger_page.py": "the pages of one ledger, a function each",
     "notebook_reports/ledger/document.py": "the checks of one document, a method each",
+    "loopbook/process/transfer_function.py": "one algebra: a process, a sum and a quotient, each made of the others",
     "derivations/programs/pid_code.py": "the programs of one regulator, side by side",
     "notebook_reports/export/model.py": "one model of a report, a class for each node",
     "notebook_reports/export/read/html.py": "one reader, a method for each element",

@@ -104,7 +104,7 @@ def test_what_is_no_number_is_refused_in_one_sentence(bad):
         (SettingError, lambda: PidSettings(K=bad, h=1)),
         (DataError, lambda: FrequencyData.from_ultimate(bad, 1)),
         (DataError, lambda: FrequencyData.from_ultimate(1, bad)),
-        (RuleDoesNotApply, lambda: tune(StepData(1, 1, 1), "lambda-pi", closed=0 if bad is None else bad)),
+        (RuleDoesNotApply, lambda: tune(StepData(1, 1, 1), "lambda-pi", closed=-1 if bad is None else bad)),
         (DataError, lambda: StepData(1, bad, 1)),
         (DataError, lambda: FrequencyData(bad, 1)),
     ]
@@ -219,3 +219,31 @@ def test_nothing_leaks_from_many_lags_with_dead_time(n, delay):
 class _Gain:
     def step(self, y, reference):
         return 0.5 * (reference - y)
+
+
+def test_a_closed_loop_as_fast_as_its_dead_time_allows():
+    """K = T/(Kp (closed + T0)): nothing divides by closed = 0 where there is dead time."""
+    for name in ("simc-pi", "lambda-pi"):
+        found = tune(StepData(2, 10, 3), name, closed=0)
+        assert found.K == pytest.approx(10 / 6) and found.notes
+    for bad in (-1, math.inf):
+        with pytest.raises(RuleDoesNotApply, match="closed = "):
+            tune(StepData(2, 10, 3), "simc-pi", closed=bad)
+
+
+def test_dead_time_alone_is_left_to_integral_action():
+    for known in (StepData(2, 0, 3), Process([2], [1], 3)):
+        with pytest.raises(RuleDoesNotApply, match=r"dead time alone.*PidParallel"):
+            tune(known, "simc-pi")
+
+
+@pytest.mark.parametrize("times", [["1", "2"], [1j], [None], [0.0, math.nan]], ids=str)
+def test_times_and_inputs_are_real_numbers(times):
+    process = Process([2], [3, 1], 1)
+    for door in (process.step, process.impulse, process.ramp, sample(process, 1.0).response):
+        with pytest.raises(ProcessError) as caught:
+            door(times)
+        assert "\n" not in str(caught.value) and len(str(caught.value)) < 200
+    plain = process.step([0.0, 2.0, 4.0])
+    for row in ([0, 2, 4], [Fraction(0), Decimal(2), sympy.Integer(4)], np.array([0, 2, 4], dtype=np.uint8)):
+        assert process.step(row).tolist() == plain.tolist()

@@ -127,7 +127,13 @@ def zero_order_hold(
         raise SamplingError(f"G, h or part holds {z}, the variable of the sampled model: name that quantity otherwise")
     plain = _without_assumptions((G, h, part), s, positive=h)
     if plain:
-        found = zero_order_hold(G.subs(plain), h.subs(plain), whole, part.subs(plain), s, z)
+        try:
+            found = zero_order_hold(G.subs(plain), h.subs(plain), whole, part.subs(plain), s, z)
+        except SamplingError as error:
+            text = str(error)
+            for symbol, dummy in plain.items():
+                text = text.replace(str(dummy), str(symbol))
+            raise SamplingError(text) from None
         back = {dummy: symbol for symbol, dummy in plain.items()}
         return Sampled(found.A.subs(back), found.B.subs(back), h, whole, part, z)
     poles = _poles(G, s)

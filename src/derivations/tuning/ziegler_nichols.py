@@ -1,7 +1,7 @@
 """Ziegler and Nichols: from a step response, or from the gain and period at which a proportional loop oscillates.
 
 The article prints Ti = 3 T0 for PI where the paper has T0/0.3 = 3.33 T0; 0.85 Tu where it has Tu/1.2, and 0.12 Tu where
-it has Tu/8. Both are here.
+it has Tu/8. Many tables round 3.33 T0 or 3.3 T0, and Åström and Hägglund print 0.4 Ku and 0.8 Tu. All are here.
 """
 
 from dataclasses import replace
@@ -16,6 +16,8 @@ from derivations.tuning.takes import Takes
 
 ARTICLE = "pid-article"
 PAPER = "J. G. Ziegler and N. B. Nichols, Optimum settings for automatic controllers, Trans. ASME 64 (1942)"
+ROUNDED = f"{PAPER}, with T0/0.3 rounded as most tables print it"
+ASTROM = "K. J. Åström and T. Hägglund, PID Controllers: Theory, Design, and Tuning (1995), frequency response method"
 AIM = "load: a quarter decay ratio"
 RANGE = Caution(
     sp.Or(T_0 / T < Rational(1, 10), T_0 / T > 1),
@@ -39,6 +41,10 @@ def rules() -> tuple[Rule, ...]:
         pi,
         step("zn-step-pid", "PID", f"{PAPER}; {article}", Rational(6, 5) / a, 2 * T_0, T_0 / 2),
         replace(pi, name="zn-step-pi-article", source=article, Ti=3 * T_0, variant_of=pi.name),
+        *(
+            replace(pi, name=f"zn-step-pi-{name}", source=ROUNDED, Ti=Rational(*Ti) * T_0, variant_of=pi.name)
+            for name, Ti in {"3.33": (333, 100), "3.3": (33, 10)}.items()
+        ),
     )
     return by_step + _ultimate()
 
@@ -59,6 +65,14 @@ def _ultimate() -> tuple[Rule, ...]:
         ultimate("zn-ultimate-p", "P", f"{PAPER}; {article}", K_u / 2),
         pi,
         pid,
+        replace(
+            pi,
+            name=f"{pi.name}-0.4",
+            source=ASTROM,
+            K=Rational(4, 10) * K_u,
+            Ti=Rational(8, 10) * T_u,
+            variant_of=pi.name,
+        ),
         replace(pi, name=f"{pi.name}-article", source=article, Ti=Rational(85, 100) * T_u, variant_of=pi.name),
         replace(pid, name=f"{pid.name}-article", source=article, Td=Rational(12, 100) * T_u, variant_of=pid.name),
     )

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
+from derivations.pid.pid_laws import K, Td, Ti
 from derivations.programs import pid_code as code
 from derivations.programs.bumpless import keep_both_parts
 
@@ -43,6 +44,25 @@ def gains() -> Callable:
     lines += [f"    {p} = {_text(values[p])}" for p in GAINS if p not in ("p_5", "p_6", "c")]
     lines += [f"    {p} = 0 * K if T_i is None else {_text(values[p])}" for p in ("p_5", "p_6")]
     return _compiled("\n".join([*lines, f"    return {', '.join(GAINS)}"]), "gains")
+
+
+@cache
+def parallel_gains() -> Callable:
+    """(P, I, D, Tf, b, c, h, Tt) -> the same, with K/Ti = I and K Td = D, so that each may be zero; I = None: none.
+
+    No division by P is left; raises ArithmeticError if there were.
+    """
+    import sympy
+
+    P, I, D = (sympy.Symbol(name) for name in ("P", "I", "D"))
+    values = {s.name: v for s, v in code.weighted().gain_values().items()} | {"p_24": code.derivative_gain()}
+    given = {name: sympy.cancel(values[name].subs({Ti: K / I, Td: D / K})).subs(K, P) for name in values}
+    if any(P in sympy.denom(sympy.together(value)).free_symbols for value in given.values()):
+        raise ArithmeticError("a gain is divided by P")
+    lines = ["def parallel_gains(P, I, D, T_f, b, c, h, T_t):"]
+    lines += [f"    {p} = {_text(given[p])}" for p in GAINS if p not in ("p_5", "p_6", "c")]
+    lines += [f"    {p} = 0 * h if I is None else {_text(given[p])}" for p in ("p_5", "p_6")]
+    return _compiled("\n".join([*lines, f"    return {', '.join(GAINS)}"]), "parallel_gains")
 
 
 @cache

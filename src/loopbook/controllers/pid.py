@@ -17,6 +17,7 @@ import numpy as np
 
 from derivations.errors import LoopbookError
 from loopbook.controllers import generated
+from loopbook.controllers.parallel_settings import ParallelSettings
 from loopbook.controllers.settings import PidSettings, SettingError
 from loopbook.numerics.real_numbers import Number, plain_number
 
@@ -48,8 +49,9 @@ def _numbers(name: str, signal: Any) -> list[int | float | Fraction]:
 class Pid:
     """A PID controller with its state.
 
-    settings: `PidSettings`, all numbers floats or all exact (int, Fraction). I: start value of the integral part [u].
-    x: start value of the derivative's state [u]; None: at the first sample the derivative starts from rest, D = 0.
+    settings: `PidSettings` or `ParallelSettings`, all numbers floats or all exact (int, Fraction). I: start value of
+    the integral part [u]. x: start value of the derivative's state [u]; None: at the first sample the derivative starts
+    from rest, D = 0.
     on_bad: "raise" raises `BadMeasurement` for a y or y_sp that is not finite; "hold" warns and holds the last output,
     before any sample I within the limits. Numbers of other types (NumPy, Decimal) are taken as Python's.
     Attributes: I, x, u (last output), v (last unlimited output), mode ("auto" or "manual"), settings.
@@ -63,7 +65,9 @@ class Pid:
     _p_2: Number
     _p_24: Number
 
-    def __init__(self, settings: PidSettings, *, I: Number = 0, x: Number = None, on_bad: str = "raise"):
+    def __init__(
+        self, settings: PidSettings | ParallelSettings, *, I: Number = 0, x: Number = None, on_bad: str = "raise"
+    ):
         if on_bad not in ("raise", "hold"):
             raise SettingError("on_bad", on_bad, "raise or hold")
         self.on_bad = on_bad
@@ -75,12 +79,9 @@ class Pid:
         self._manual = self._arriving = None
         self._use(settings)
 
-    def _use(self, settings: PidSettings) -> None:
+    def _use(self, settings: PidSettings | ParallelSettings) -> None:
         self.settings = s = settings
-        given: tuple[Any, ...] = (s.K, s.Ti, s.Td, s.Tf, s.b, s.c, s.h, s.Tt)
-        if any(isinstance(number, Fraction) for number in given):  # the ratio of two ints would be a float
-            given = tuple(Fraction(number) if isinstance(number, int) else number for number in given)
-        values = generated.gains()(*given)
+        values = s.gains()
         for name, value in zip(generated.GAINS, values, strict=True):
             setattr(self, f"_{name}", value)
         self._gains = values
@@ -154,7 +155,7 @@ class Pid:
             self._arriving = self._manual
         self.mode = AUTO
 
-    def change(self, bumpless: str = "exact", **settings: Any) -> PidSettings:
+    def change(self, bumpless: str = "exact", **settings: Any) -> PidSettings | ParallelSettings:
         """Change settings between two samples; returns the new ones.
 
         bumpless: "exact" keeps P + I and D at the last y and y_sp for any change of K, b, c, Td, Tf, h, Ti, Tt.

@@ -16,7 +16,9 @@ from typing import Any, cast
 import numpy as np
 
 from derivations.errors import LoopbookError
+from loopbook.controllers.pid_formulas import parallel_formula, series_formula, standard_formula
 from loopbook.controllers.regulator import Regulator
+from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number
 
 
@@ -77,10 +79,23 @@ class _Form:
         regulator = self.regulator()
         return regulator.S, regulator.R
 
+    @property
+    def fraction(self) -> tuple[ExponentialPolynomial, ExponentialPolynomial]:
+        """What stands for it in products and sums with transfer functions: the feedback path C(s) = -u/y."""
+        return self.regulator().fraction
+
     def reference_transfer(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """(num, den) of the path from the reference, u/r."""
         regulator = self.regulator()
         return regulator.T, regulator.R
+
+    def latex(self) -> str:
+        """The law with its numbers, in LaTeX."""
+        p = self.parallel()
+        return parallel_formula(p.P, p.I, p.D, p.Tf if p.D else 0.0, p.b, p.c)
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
 
     def __call__(self, s: Any) -> Any:
         """C(s) = -u/y at complex s."""
@@ -177,6 +192,10 @@ class PidStandard(_Form):
         object.__setattr__(self, "N", N)
         object.__setattr__(self, "Tf", Tf)
 
+    def latex(self) -> str:
+        """The law with its numbers, in LaTeX."""
+        return standard_formula(self.K, self.Ti, self.Td, self.Tf, self.b, self.c)
+
     def parallel(self) -> PidParallel:
         """P = K, I = K/Ti, D = K Td, and the pole N = 1/Tf in rad/s."""
         pole = 1 / self.Tf if self.Tf else math.inf
@@ -230,6 +249,10 @@ class PidSeries(_Form):
         checked = PidStandard(self.K, self.Ti, self.Td, N=self.N, Tf=self.Tf)
         object.__setattr__(self, "N", checked.N)
         object.__setattr__(self, "Tf", checked.Tf)
+
+    def latex(self) -> str:
+        """The law with its numbers, in LaTeX."""
+        return series_formula(self.K, self.Ti, self.Td, self.Tf)
 
     def standard(self) -> PidStandard:
         """K' = K (1 + Td/Ti), Ti' = Ti + Td, Td' = Td (Ti - Tf)/(Ti + Td), the filter unchanged: exact with filter.

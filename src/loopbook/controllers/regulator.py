@@ -12,7 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from loopbook.numerics import polynomial_text
+from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number
+from loopbook.process import formulas
 from loopbook.process.transfer_function import Process, ProcessError, checked_coefficients
 
 ON_AXIS = 1e-10
@@ -66,6 +69,22 @@ class Regulator:
                 f"{kind} is no regulator: give a Regulator, a PID form of loopbook.controllers.pid_forms or a number"
             ) from None
         return cls.one_dof((gain,), (1.0,))
+
+    def latex(self) -> str:
+        """R, S and T in LaTeX, in descending powers of s."""
+        rows = (f"{name} &= {polynomial_text.descending(getattr(self, name))}" for name in "RST")
+        return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+    def __repr__(self) -> str:
+        return f"Regulator({', '.join(f'{n}={formulas.short_row(getattr(self, n))}' for n in 'TSR')})"
+
+    @property
+    def fraction(self) -> tuple[ExponentialPolynomial, ExponentialPolynomial]:
+        """(S, R), which stands for it in products and sums with transfer functions: the feedback path -u/y."""
+        return ExponentialPolynomial.of(self.S), ExponentialPolynomial.of(self.R)
 
     def feedback(self, s: Any) -> Any:
         """S/R at complex s: from the measurement, with the sign turned, to u."""

@@ -24,6 +24,7 @@ from loopbook.numerics import polynomial_text
 from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.numerics.recursion import recursion
 from loopbook.numerics.units import CANCELLED
+from loopbook.process import formulas
 
 Polynomial = Sequence[float] | np.ndarray
 NEAR = 1e-8
@@ -62,12 +63,15 @@ def zeros_of(p: Polynomial) -> np.ndarray:
 
 
 def with_zeros(zeros: Sequence[complex]) -> np.ndarray:
-    """The polynomial (1 - z1 z^-1)(1 - z2 z^-1)... with real coefficients.
+    """The polynomial (1 - z1 z^-1)(1 - z2 z^-1)... with real coefficients; PlacementError where they are not real.
 
     >>> with_zeros([0.5, 0.5])
     array([ 1.  , -1.  ,  0.25])
     """
-    return np.atleast_1d(np.real(np.poly(np.asarray(zeros, dtype=complex))))
+    row = np.atleast_1d(np.poly(np.asarray(zeros, dtype=complex)))
+    if np.abs(row.imag).max() > NEAR * np.abs(row).max():
+        raise PlacementError(f"{list(zeros)} are not real or in conjugate pairs")
+    return row.real
 
 
 @dataclass(frozen=True)
@@ -121,6 +125,11 @@ class Rst:
         """R, S and T in LaTeX, in powers of z^-1."""
         rows = (f"{name} &= {polynomial_text.in_delays(getattr(self, name))}" for name in "RST")
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
+
+    def __repr__(self) -> str:
+        rows = ", ".join(f"{name}={formulas.short_row(getattr(self, name))}" for name in "RST")
+        observer = "" if self.observer == (1.0,) else f", observer={formulas.short_row(self.observer)}"
+        return f"Rst({rows}, h={self.h!r}{observer})"
 
     def _repr_latex_(self) -> str:
         return f"$${self.latex()}$$"

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from derivations.errors import LoopbookError
+from loopbook.controllers import generated
 from loopbook.controllers.pid_forms import PidParallel, PidSeries, PidStandard
 from loopbook.numerics.real_numbers import Number, plain_number
 
@@ -38,6 +39,17 @@ def _number(name: str, value: Any, infinite: bool = False) -> int | float | Frac
     if number != number or (abs(number) == math.inf and not infinite):
         raise SettingError(name, value, "a real number" if infinite else "a finite real number")
     return number
+
+
+def exact_beside_fractions(*numbers: Number) -> tuple[Number, ...]:
+    """The same numbers; ints as fractions where there is a fraction, as the ratio of two ints would be a float.
+
+    >>> exact_beside_fractions(1, Fraction(1, 3), None)
+    (Fraction(1, 1), Fraction(1, 3), None)
+    """
+    if not any(isinstance(number, Fraction) for number in numbers):
+        return numbers
+    return tuple(Fraction(number) if isinstance(number, int) else number for number in numbers)
 
 
 def tracking_time(Ti: Number, Td: Number) -> Number:
@@ -123,6 +135,12 @@ class PidSettings:
                 object.__setattr__(self, "Tt", max(tracking_time(self.Ti, self.Td), self.h))
         elif 2 * self.Tt <= self.h:
             raise SettingError("Tt", self.Tt, f"Tt > h/2 = {self.h / 2!r} s", "below it tracking diverges")
+
+    def gains(self) -> tuple[Any, ...]:
+        """The coefficients of the program."""
+        given = exact_beside_fractions(self.K, self.Ti, self.Td, self.Tf, self.b, self.c, self.h, self.Tt)
+        found: tuple[Any, ...] = generated.gains()(*given)
+        return found
 
     def changed(self, **settings: Any) -> "PidSettings":
         """The same settings with some replaced; Tt stays as it is. SettingError for an unknown name."""

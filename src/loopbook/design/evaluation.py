@@ -7,8 +7,9 @@ import numpy as np
 
 from loopbook.design.candidates import Candidate
 from loopbook.design.model import Model
-from loopbook.loop.continuous import Loop, StepResponse
+from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
+from loopbook.loop.step_response import StepResponse
 from loopbook.loop.transfer import LoopError
 from loopbook.numerics.collocation import ResponseError
 from loopbook.numerics.signals import Signal

@@ -8,7 +8,8 @@ import numpy as np
 from loopbook.controllers.rst import PlacementError, Rst, with_zeros
 from loopbook.design.model import Model
 from loopbook.design.speed import time_scale
-from loopbook.loop.sampled import SampledLoop, SampledMargins
+from loopbook.loop.margins import Margins
+from loopbook.loop.sampled import SampledLoop
 from loopbook.pole_placement.numeric import place_numerically
 from loopbook.process.sampled import sample
 from notebook_reports.display import Table, number
@@ -27,7 +28,7 @@ class Placed:
     closed: float
     q: float
     regulator: Rst | None
-    margins: SampledMargins | None = None
+    margins: Margins | None = None
     regulator_stable: bool = False
     settling: float = math.nan
     peak_input: float = math.nan

@@ -12,6 +12,7 @@ from loopbook.loop.step_info import step_info
 from loopbook.loop.transfer import LoopError
 from loopbook.plots.curves import curves
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.plots.shown import shown_once
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation
@@ -24,8 +25,8 @@ RUN = ("overshoot [%]", "IAE", "largest u", "smallest u", "variation of u")
 UNSTABLE = ("unstable", *("",) * (len(LOOP) - 1))
 
 
-@dataclass(frozen=True)
-class SideBySide(ShownAsTable):
+@dataclass(frozen=True, repr=False)
+class SideBySide(ShortRepr, ShownAsTable):
     """What `compare` makes. loops or runs: by name; values: a row of measures for each, by name."""
 
     items: Mapping[str, Any]
@@ -52,7 +53,7 @@ class SideBySide(ShownAsTable):
             raise ValueError("no loop is stable: there is nothing to draw")
         horizon = horizon or max(3 * step_info(loop).settling for loop in stable.values())
         for name, loop in stable.items():
-            y[name], u[name] = _drawn(loop, horizon)
+            y[name], u[name] = loop.reference_and_load(horizon)
         title = "Unit steps of the reference (at once) and of the load (half-way)"
         return shown_once(curves({"output $y$": y, "input $u$": u}, title))
 
@@ -116,16 +117,3 @@ def _of_run(run: Simulation) -> tuple[Any, ...]:
     )
     varied = abs(run.u[0]) + float(np.abs(np.diff(run.u)).sum())
     return over, float(h * np.sum(np.abs(run.reference - run.y))), float(run.u.max()), float(run.u.min()), varied
-
-
-def _drawn(loop: Loop | SampledLoop, horizon: float) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
-    """((t, y), (t, u)) after a unit step of the reference at 0 and one of the load at half the horizon."""
-    if isinstance(loop, Loop):
-        return loop.reference_and_load(horizon)
-    steps = int(np.ceil(horizon / loop.regulator.h))
-    one, two = loop.step("reference", steps), loop.step("load", steps)
-    later = steps // 2
-    y, u = one.y.copy(), one.u.copy()
-    y[later:] += two.y[: steps + 1 - later]
-    u[later:] += two.u[: steps + 1 - later]
-    return (one.t, y), (one.t, u)

@@ -11,7 +11,7 @@ import numpy as np
 
 from loopbook.loop.continuous import Loop
 from loopbook.loop.margins import Margins
-from loopbook.loop.sampled import SampledLoop, SampledMargins
+from loopbook.loop.sampled import SampledLoop
 from loopbook.numerics.signals import Signal
 from loopbook.response.step_metrics import StepMetrics, exact_metrics
 
@@ -83,8 +83,8 @@ class ComparedLoop:
         return float(leaves.max(initial=0.0))
 
     @cached_property
-    def margins(self) -> Margins | SampledMargins:
-        """`Margins` or `SampledMargins`."""
+    def margins(self) -> Margins:
+        """Those of the loop."""
         return self.loop.margins()
 
     @property

@@ -14,33 +14,32 @@ reaches the output through W (which may have dead times of its own).
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from loopbook.controllers.regulator import Regulator
+from loopbook.loop.closed import LoopRows, closed
+from loopbook.loop.frequency_curves import of_transfer
 from loopbook.loop.margins import Margins, margins
+from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.stability import BorderError, decay_rate, is_stable, unstable_roots
+from loopbook.loop.step_response import StepResponse
 from loopbook.loop.transfer import LoopError, LoopTransfer
+from loopbook.numerics.exponential_polynomial import ExponentialPolynomial
 from loopbook.numerics.real_numbers import plain_number, real
-from loopbook.numerics.signals import HorizonError, Signal
-from loopbook.plots.curves import curves
-from loopbook.plots.shown import shown_once
-from loopbook.process.transfer_function import DelayedSum, Process
+from loopbook.numerics.signals import Signal
+from loopbook.plots.frequency import Curve
+from loopbook.process.transfer_function import DelayedSum, Process, TransferFunction
 from loopbook.response.closed_loop import INPUTS, ResponseError, closed_loop_step
-from loopbook.response.step_metrics import exact_metrics
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-SETTLED = 1e-9
 AT_REST = 1e-10
 PROLONGED = 8
 PATIENCE = np.log(1e11)
 
 
-@dataclass(frozen=True)
-class Loop:
+@dataclass(frozen=True, repr=False)
+class Loop(ShownLoop):
     """process with regulator in negative feedback; path: W(s) of the disturbance w, if there is one.
 
     regulator: a `Regulator`, a PID form of `loopbook.controllers.pid_forms`, what `loopbook.tuning` gives, a rational
@@ -65,6 +64,24 @@ class Loop:
         c = self.polynomials
         process = _without_common_integrators(self.process.num, self.process.den)
         return *process, *_without_common_integrators(c.T, c.S, c.R)
+
+    def closed(self, source: str = "reference", output: str = "y") -> Process | DelayedSum | TransferFunction:
+        """The closed loop's transfer function from "reference", "load", "noise" or "disturbance" to "y" or "u".
+
+        A `Process` without dead time, else with the dead time inside, exact: see `loopbook.loop.closed`.
+        """
+        return closed(self.loop_rows, source, output, self.path)
+
+    @cached_property
+    def characteristic(self) -> ExponentialPolynomial:
+        """R A + S B exp(-L s), whose zeros are the loop's poles: `loopbook.loop.roots.poles` finds them."""
+        return self.loop_rows.characteristic
+
+    @property
+    def loop_rows(self) -> LoopRows:
+        """B, A, T, S, R and the dead time, without the integrators that process or regulator cancel in themselves."""
+        B, A, T, S, R = self._rows
+        return LoopRows(B, A, T, S, R, self.process.delay)
 
     @cached_property
     def transfer(self) -> LoopTransfer:
@@ -150,11 +167,18 @@ class Loop:
         if count:
             raise LoopError(f"the loop is not stable ({count} roots in the right half plane): it has no {what}")
 
-    def plot(self, horizon: float | None = None) -> "Figure":
-        """y and u after a unit step of the reference, and of the load at half the horizon [s]: a matplotlib figure."""
-        y, u = self.reference_and_load(horizon or 3 * self.step("reference").metrics().settling)
-        title = "Unit steps of the reference (at once) and of the load (half-way)"
-        return shown_once(curves({"output $y$": {"y": y}, "input $u$": {"u": u}}, title))
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        rows = [["process", said_of(self.process)], ["regulator", said_of(self.regulator)]]
+        return rows if self.path is None else [*rows, ["path of w", said_of(self.path)]]
+
+    def default_horizon(self) -> float:
+        """Three times the settling time [s]."""
+        return 3 * float(self.step("reference").metrics().settling)
+
+    def frequency_curve(self, w: np.ndarray | None = None) -> Curve:
+        """Gain and phase of the loop transfer at w [rad/s], with its margins: what a diagram draws."""
+        return of_transfer(self.transfer, w, self.is_stable)
 
     def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """((t, y), (t, u)) after a unit step of the reference at 0 and one of the load at half the horizon [s]."""
@@ -168,7 +192,7 @@ class Loop:
         self._need_stable("settling time")
         return float(PATIENCE / self.decay_rate + 3 * self.process.delay)
 
-    def step(self, source: str = "reference", horizon: float | None = None) -> "StepResponse":
+    def step(self, source: str = "reference", horizon: float | None = None) -> StepResponse:
         """y and u after a unit step of one input at t = 0 from rest, exact to rounding.
 
         source: "reference", "load", "noise" or "disturbance". horizon [s]: up to when; without it, until the response
@@ -188,7 +212,7 @@ class Loop:
             if _left(longer, final) > left / 4:  # what waiting does not take away is rounding
                 break
             signals, until = longer, 2 * until
-        return StepResponse(self, source, until, *signals)
+        return StepResponse(self, source, until, *signals, settled=True)
 
     def _answer(self, source: str, horizon: float) -> tuple[Signal, Signal]:
         return closed_loop_step(self.process, self.polynomials, source, horizon, self.path)
@@ -208,81 +232,3 @@ def _without_common_integrators(*rows: Sequence[float]) -> list[tuple[float, ...
     while all(len(row) > 1 and row[-1] == 0 for row in rows if row != (0.0,)) and rows[-1] != (0.0,):
         rows = tuple(row[:-1] if row != (0.0,) else row for row in rows)
     return [tuple(row) for row in rows]
-
-
-@dataclass(frozen=True)
-class StepResponse:
-    """The response of a loop to a unit step of `source` at t = 0. y, u: signals, to be called with times [s].
-
-    Times beyond the horizon raise HorizonError.
-    """
-
-    loop: Loop
-    source: str
-    horizon: float
-    y: Signal
-    u: Signal
-
-    @cached_property
-    def final(self) -> tuple[float, float]:
-        """(y, u) for t to infinity. Raises LoopError for an unstable loop."""
-        return self.loop.final_values(self.source)
-
-    def metrics(self) -> Any:
-        """Rise time, settling time, overshoot and peak of y, convention `exact`: see `loopbook.response.step_metrics`.
-
-        Raises LoopError for an unstable loop, NotSettled for a horizon that is too short.
-        """
-        return exact_metrics(self.y, self.final[0], min(self.horizon, self.y.end))
-
-    @cached_property
-    def error(self) -> Signal:
-        """What regulation should bring to zero: 1 - y for a reference step, -y for the others."""
-        settled = self.y.until(min(self.horizon, self.y.end))
-        return 1.0 - settled if self.source == "reference" else -settled
-
-    def _vanishing_error(self) -> Signal:
-        left = (1.0 if self.source == "reference" else 0.0) - self.final[0]
-        largest = max(abs(self.error.peak()[1]), abs(left))
-        if abs(left) > SETTLED * largest:
-            raise LoopError(
-                f"the error tends to {left:.6g}, not to zero, so that its integral is infinite: the regulator has no "
-                "integral action that removes it"
-            )
-        rest = abs(float(self.error(self.error.end)))
-        if rest > SETTLED * largest:
-            raise HorizonError(
-                f"not settled at t = {self.horizon:g} s: the error is still {rest / largest:.2g} of its peak; take a "
-                "longer horizon, or none to have it chosen"
-            )
-        return self.error
-
-    def iae(self) -> float:
-        """The integral of |error| [y s]. Raises LoopError where it is infinite, HorizonError where it is cut short."""
-        return self._vanishing_error().integral_of_magnitude()
-
-    def ise(self) -> float:
-        """The integral of error^2 [y^2 s]. Raises as `iae`."""
-        return self._vanishing_error().integral_of_square()
-
-    def peak_input(self) -> tuple[float, float]:
-        """(time [s], value [u]) of the largest |u|; the value keeps its sign."""
-        return self.u.until(min(self.horizon, self.u.end)).peak()
-
-    def plot(self) -> "Figure":
-        """y and u as a matplotlib figure."""
-        t = np.linspace(0.0, min(self.horizon, self.y.end, self.u.end), 1000)
-        panels = {"output $y$": {"y": (t, self.y(t))}, "input $u$": {"u": (t, self.u(t))}}
-        return shown_once(curves(panels, f"Unit step of the {self.source}"))
-
-    def after(self, changes: Any, times: Any) -> tuple[np.ndarray, np.ndarray]:
-        """(y, u) at `times` [s] for an input that changes in steps: changes = ((time, size), ...), from rest.
-
-        The loop is linear, so this is the sum of shifted step responses: exact for any staircase of the input.
-        """
-        times = np.asarray(times, dtype=float)
-        y, u = np.zeros(times.shape), np.zeros(times.shape)
-        for when, size in changes:
-            y += size * self.y(times - when)
-            u += size * self.u(times - when)
-        return y, u

@@ -12,6 +12,7 @@ from loopbook.loop.sensitivity_peaks import Peak, complementary_peak, sensitivit
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopError, LoopTransfer
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,8 @@ class PhaseCrossover:
         return float(20 * np.log10(self.gain))
 
 
-@dataclass(frozen=True)
-class Margins(ShownAsTable):
+@dataclass(frozen=True, repr=False)
+class Margins(ShortRepr, ShownAsTable):
     """The margins of a stable loop.
 
     gain: the smallest factor above 1 that makes the loop unstable (inf if none). gain_low: the largest below 1 (0 if
@@ -66,10 +67,10 @@ class Margins(ShownAsTable):
 
     def table(self) -> PlainTable:
         """Each margin with the frequency at which it is taken."""
-        gain = next((c.w for c in self.phase_crossovers if c.gain == self.gain), float("nan"))
-        low = next((c.w for c in self.phase_crossovers if c.gain == self.gain_low), float("nan"))
-        phase = next((c.w for c in self.gain_crossovers if c.phase_margin == self.phase), float("nan"))
-        delay = next((c.w for c in self.gain_crossovers if c.delay_margin == self.delay), float("nan"))
+        gain = next((c.w for c in self.phase_crossovers if c.gain == self.gain), "")
+        low = next((c.w for c in self.phase_crossovers if c.gain == self.gain_low), "")
+        phase = next((c.w for c in self.gain_crossovers if c.phase_margin == self.phase), "")
+        delay = next((c.w for c in self.gain_crossovers if c.delay_margin == self.delay), "")
         rows = [["gain", self.gain, gain], ["gain, lower", self.gain_low, low], ["phase [°]", self.phase, phase]]
         rows += [["delay [s]", self.delay, delay], ["Ms", self.Ms.value, self.Ms.w], ["Mt", self.Mt.value, self.Mt.w]]
         return PlainTable(["margin", "value", "at [rad/s]"], [r for r in rows if r[:2] != ["gain, lower", 0.0]])

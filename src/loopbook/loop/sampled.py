@@ -5,54 +5,32 @@ The delay margin is a delay of the continuous process, resampled with the dead t
 frequency.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from loopbook.controllers.rst import Rst, zeros_of
+from loopbook.controllers.rst import Rst
+from loopbook.loop.circle_margins import circle_margins
+from loopbook.loop.discrete import DiscreteLoop, circle_of_sampled
+from loopbook.loop.frequency_curves import of_circle
+from loopbook.loop.inside_circle import is_stable_in_z, row_sum
+from loopbook.loop.margins import Margins
 from loopbook.loop.sampled_delay_margin import delay_margin
-from loopbook.loop.sensitivity_peaks import Peak, sampled_peaks
+from loopbook.loop.shown_loop import ShownLoop, said_of
 from loopbook.loop.transfer import LoopError
 from loopbook.loop.unit_circle import CircleTransfer
-from loopbook.plots.plain_table import PlainTable, ShownAsTable
-from loopbook.process.near_one import zeros_near_one
+from loopbook.plots.frequency import Curve
+from loopbook.plots.stairs import stairs
+from loopbook.process.discrete import DiscreteProcess
 from loopbook.process.sampled import SampledProcess, sample
 from loopbook.process.transfer_function import Process
 from loopbook.response.simulation import Simulation, simulate
 
-BORDER = 1e-9
-LONGEST, ROUNDED = 40, 4 * float(np.finfo(float).eps)
 
-
-@dataclass(frozen=True)
-class SampledMargins(ShownAsTable):
-    """Margins of a stable sampled loop. gain, gain_low [-], phase [degrees], delay [s], Ms, Mt as in `margins.Margins`.
-
-    delay is the smallest dead time that, added to the continuous process, makes the loop unstable; inf if none does.
-    """
-
-    gain: float
-    gain_low: float
-    phase: float
-    delay: float
-    Ms: Peak
-    Mt: Peak
-
-    @property
-    def gain_decibels(self) -> float:
-        return float(20 * np.log10(self.gain))
-
-    def table(self) -> PlainTable:
-        """Each margin, and the peaks with their frequencies."""
-        rows = [["gain", self.gain, ""], ["gain, lower", self.gain_low, ""], ["phase [°]", self.phase, ""]]
-        rows += [["delay [s]", self.delay, ""], ["Ms", self.Ms.value, self.Ms.w], ["Mt", self.Mt.value, self.Mt.w]]
-        return PlainTable(["margin", "value", "at [rad/s]"], [r for r in rows if r[:2] != ["gain, lower", 0.0]])
-
-
-@dataclass(frozen=True)
-class SampledLoop:
+@dataclass(frozen=True, repr=False)
+class SampledLoop(ShownLoop):
     """process: continuous, with dead time. regulator: an `Rst`; its h is the sampling interval.
 
     >>> loop = SampledLoop(Process([0.5], [1, 0], 0.4), Rst(R=(1.0,), S=(0.5,), T=(0.5,), h=1.0))
@@ -76,8 +54,7 @@ class SampledLoop:
     @cached_property
     def poles(self) -> np.ndarray:
         """The zeros of A R + B S, the loop's poles in the z plane; those at the origin left out."""
-        n, d = self.transfer
-        return np.roots(_sum(n, d)).astype(complex)
+        return np.roots(row_sum(*self.transfer)).astype(complex)
 
     @cached_property
     def is_stable(self) -> bool:
@@ -86,16 +63,11 @@ class SampledLoop:
         Where poles crowd around the circle, as under fast sampling and long dead times, they are counted by the turning
         of the loop transfer, which needs no root of a long polynomial.
         """
-        n, d = self.transfer
-        certain = _inside(_sum(n, d), float(_sum(abs(n), abs(d)).max()))
-        if certain is not None:
-            return certain
-        if not n.any():
-            return bool((abs(self.on_circle.poles) < 1 - BORDER).all())
-        try:
-            return self.on_circle.roots_outside() == 0
-        except ValueError:
-            return False
+        return is_stable_in_z(*self.transfer, lambda: self.on_circle)
+
+    def closed(self, source: str = "reference", output: str = "y") -> DiscreteProcess:
+        """At the samples: from "reference", "load" (held) or "noise" to "y" or "u"."""
+        return DiscreteLoop(self.sampled, self.regulator).closed(source, output)
 
     def with_delay(self, more: float) -> "SampledLoop":
         """The same regulator on a process with `more` seconds of dead time added."""
@@ -108,10 +80,7 @@ class SampledLoop:
     @cached_property
     def on_circle(self) -> CircleTransfer:
         """The loop transfer at z = exp(j angle)."""
-        n, d = self.transfer
-        zeros = np.concatenate([zeros_of(self.regulator.S), zeros_near_one(self.sampled)])
-        poles = np.concatenate([zeros_of(self.regulator.R), np.exp(self.process.poles * self.regulator.h)])
-        return CircleTransfer(n, d, zeros, poles)
+        return circle_of_sampled(self.sampled, self.regulator)
 
     def at(self, angle: np.ndarray) -> np.ndarray:
         """The loop transfer at z = exp(j angle), angle = w h [rad]."""
@@ -127,23 +96,46 @@ class SampledLoop:
         """The w in [0, pi/h] [rad/s] where G is real and negative, ascending; both ends where they are."""
         return self.on_circle.phase_crossovers / self.regulator.h
 
-    def margins(self) -> SampledMargins:
-        """All margins. Raises LoopError for an unstable loop, which has none."""
+    @property
+    def h(self) -> float:
+        """The sampling interval [s]."""
+        return self.regulator.h
+
+    def margins(self) -> Margins:
+        """All margins, each with its frequency [rad/s]. Raises LoopError for an unstable loop, which has none.
+
+        delay [s]: the smallest dead time that, added to the continuous process, makes the loop unstable; inf if none.
+        """
         if not self.is_stable:
             raise LoopError(f"the loop is unstable (a pole at |z| = {abs(self.poles).max():.6g}) and has no margins")
-        h = self.regulator.h
-        Ms, Mt = sampled_peaks(self.on_circle)
-        factors = 1 / abs(self.at(self.phase_crossovers * h))
-        factors[factors < BORDER] = 0.0  # an integrator: the loop transfer is infinite at z = 1
-        at_gain = np.degrees(np.angle(-self.at(self.gain_crossovers * h)))
-        return SampledMargins(
-            gain=float(factors[factors > 1].min(initial=np.inf)),
-            gain_low=float(factors[factors < 1].max(initial=0.0)),
-            phase=float(min(at_gain, key=abs, default=np.inf)),
-            delay=delay_margin(self.process, self.regulator, lambda more: self.with_delay(more).is_stable),
-            Ms=Peak(Ms.value, Ms.w / h),
-            Mt=Peak(Mt.value, Mt.w / h),
-        )
+        found = circle_margins(self.on_circle, self.h)
+        late = delay_margin(self.process, self.regulator, lambda more: self.with_delay(more).is_stable)
+        return replace(found, delay=late)
+
+    def parts(self) -> list[list[Any]]:
+        """What it is made of."""
+        return [["process", said_of(self.process)], ["regulator", said_of(self.regulator)], ["h [s]", self.h]]
+
+    def frequency_curve(self, w: np.ndarray | None = None) -> Curve:
+        """Gain and phase of the loop transfer at w [rad/s], with its margins: what a diagram draws."""
+        return of_circle(self.on_circle, self.h, w, self.is_stable)
+
+    def default_horizon(self) -> float:
+        """Three times ln(50) over the slowest pole's decay [s], at least sixty samples and the dead time twice."""
+        slowest = float(abs(self.poles).max(initial=0.0))
+        if not slowest < 1:
+            raise LoopError("the loop is unstable: its steps have no end; give a horizon")
+        settled = 12 * self.h / max(-np.log(max(slowest, 1e-9)), 1e-9)
+        return max(settled, 60 * self.h) + 2 * self.process.delay
+
+    def reference_and_load(self, horizon: float) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """((t, y), (t, u)) at the samples after a unit step of the reference at 0, of the load at half the horizon."""
+        steps = int(np.ceil(horizon / self.h))
+        one, two, later = self.step("reference", steps), self.step("load", steps), steps // 2
+        y, u = one.y.copy(), one.u.copy()
+        y[later:] += two.y[: steps + 1 - later]
+        u[later:] += two.u[: steps + 1 - later]
+        return (one.t, y), stairs(one.t, u)
 
     def step(self, source: str, steps: int, low: float = -np.inf, high: float = np.inf) -> Simulation:
         """A unit step at t = 0 of "reference", "load" (at the process input), "noise" (on the measurement) or "output"
@@ -154,34 +146,3 @@ class SampledLoop:
             raise LoopError(f"source = {source!r}; one of reference, load, noise, output")
         unit: dict[str, Any] = {source: 1.0}
         return simulate(self.process, self.regulator.controller(low, high), self.regulator.h, steps, **unit)
-
-
-def _sum(n: np.ndarray, d: np.ndarray) -> np.ndarray:
-    total = np.zeros(max(len(n), len(d)))
-    total[: len(n)] += n
-    total[: len(d)] += d
-    return total
-
-
-def _inside(p: np.ndarray, size: float) -> bool | None:
-    """Do all roots lie in the unit circle, by Schur's and Cohn's recursion? None where rounding leaves that open, or
-    where the polynomial is long.
-
-    p: descending coefficients; size: what they are made of at most, so that their rounding is a fraction of that.
-    """
-    if len(p) > LONGEST:
-        return None
-    row, error = p.tolist(), ROUNDED * size
-    while len(row) > 1:
-        largest = max(map(abs, row))
-        if abs(row[0]) <= error:
-            return None
-        k = row[-1] / row[0]
-        of_k = error * (1 + abs(k)) / (abs(row[0]) - error)
-        if abs(abs(k) - 1) <= of_k + ROUNDED:
-            return None
-        if abs(k) > 1:
-            return False
-        row = [a - k * b for a, b in zip(row[:-1], row[:0:-1], strict=True)]
-        error = error * (1 + abs(k) + of_k) + (of_k + ROUNDED) * largest
-    return True

@@ -10,6 +10,7 @@ from below; an interval is dropped only when that bound shows that nothing small
 import cmath
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -29,7 +30,7 @@ class Peak(NamedTuple):
     w: float
 
 
-class _Curve(ABC):
+class NyquistCurve(ABC):
     """W over w. A subclass tells W, d log W/dw, and what bounds them on intervals."""
 
     @abstractmethod
@@ -68,7 +69,7 @@ class _Curve(ABC):
         return values, np.fmax(np.fmax(np.where(np.isfinite(local), local, -1.0), least - 1), 1 - most)
 
 
-class _Axis(_Curve):
+class _Axis(NyquistCurve):
     """W = k prod(s - z)/prod(s - p) exp(-L s) on the imaginary axis: G itself or 1/G (then with a negative L)."""
 
     def __init__(self, loop: LoopTransfer, inverse: bool):
@@ -76,6 +77,8 @@ class _Axis(_Curve):
         self.zeros, self.poles = (loop.poles, loop.zeros) if inverse else (loop.zeros, loop.poles)
         self.delay = -loop.delay if inverse else loop.delay
         self.k = abs(self.num[0] / self.den[0])
+        turning = bool(self.delay) and len(self.zeros) == len(self.poles)
+        self.monotone_from = _monotone_from(self.num, self.den) if turning else np.inf
 
     def __call__(self, w: np.ndarray) -> np.ndarray:
         s = 1j * np.asarray(w, dtype=float)
@@ -103,7 +106,7 @@ class _Axis(_Curve):
         at_zero, *inside = self.distance(np.append(1e-12 * low, w))
         end = min((_limit(self), np.inf), (float(at_zero), 0.0))
         farther = high * 1.5 ** np.arange(2 + max(0, math.ceil(math.log(1e12 * low / high, 1.5))))
-        over = np.flatnonzero(_tail(self, farther) >= min(end[0], *inside, 1.0) * (1 - CERTAIN))
+        over = np.flatnonzero(_tail(self, farther) >= min(end[0], *inside) * (1 - CERTAIN))
         return np.concatenate([[0.0], w, farther[1 : over[0] + 1 if over.size else None]]), *end
 
     def extent(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -115,7 +118,36 @@ class _Axis(_Curve):
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             most = self.k * far[:split].prod(axis=0) / near[split:].prod(axis=0)
             least = self.k * near[:split].prod(axis=0) / far[split:].prod(axis=0)
+            beyond = a >= self.monotone_from
+            if beyond.any():
+                at_ends = np.abs(self(a)), np.abs(self(b))
+                least, most = (
+                    np.where(beyond, np.minimum(*at_ends), least),
+                    np.where(beyond, np.maximum(*at_ends), most),
+                )
             return least, most, (1 / near).sum(axis=0) + abs(self.delay), (1 / near**2).sum(axis=0)
+
+
+def _monotone_from(num: Sequence[float], den: Sequence[float]) -> float:
+    """A frequency beyond which |num/den|, of equal degrees, only rises or only falls: beyond all its extremes.
+
+    |p(jw)|^2 is a polynomial in x = w^2, and N/D has its extremes where N' D = N D'.
+    """
+    if len(num) == 1:
+        return 0.0
+    N, D = (_squared(p) for p in (num, den))
+    parts = np.convolve(np.polyder(N), D), np.convolve(N, np.polyder(D))
+    slope = (parts[0] - parts[1])[1:]  # the leading terms are equal
+    slope = np.where(np.abs(slope) > 1e-13 * (np.abs(parts[0]) + np.abs(parts[1]))[1:], slope, 0.0)
+    roots = np.roots(slope) if len(slope) > 1 and slope.any() else np.zeros(0)
+    return float(2 * np.sqrt(np.abs(roots).max(initial=0.0)))
+
+
+def _squared(p: Sequence[float]) -> np.ndarray:
+    """|p(jw)|^2 in descending powers of w^2."""
+    signs = (-1.0) ** np.arange(len(p))[::-1]
+    even = np.convolve(p, p * signs)[::2]
+    return np.asarray(even * (-1.0) ** np.arange(len(even))[::-1])
 
 
 def _tail(curve: _Axis, start: np.ndarray) -> np.ndarray:
@@ -127,6 +159,12 @@ def _tail(curve: _Axis, start: np.ndarray) -> np.ndarray:
     least = scale * down(curve.zeros) / up(curve.poles)
     if excess > 0:
         return least - 1
+    if np.isfinite(curve.monotone_from):
+        size = np.abs(curve(start))
+        toward = np.where((size - 1) * (curve.k - 1) > 0, np.minimum(np.abs(size - 1), abs(curve.k - 1)), 0.0)
+        return np.where(
+            start >= curve.monotone_from, toward, np.maximum(1 - scale * up(curve.zeros) / down(curve.poles), least - 1)
+        )
     most = scale * up(curve.zeros) / down(curve.poles)
     return np.maximum(1 - most, least - 1) if excess == 0 else 1 - most
 
@@ -141,7 +179,7 @@ def _limit(curve: _Axis) -> float:
     return abs(1 + curve.num[0] / curve.den[0])
 
 
-class Circle(_Curve):
+class Circle(NyquistCurve):
     """W = G or 1/G on the unit circle, for sampled loops; w is the angle."""
 
     def __init__(self, transfer: CircleTransfer):
@@ -169,7 +207,7 @@ class Circle(_Curve):
             return least, most, (size / near).sum(axis=0) + abs(t.d), (size / near**2).sum(axis=0)
 
 
-def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float]:
+def _polished(curve: NyquistCurve, a: float, b: float, w: float) -> tuple[float, float]:
     """(distance, w) at the minimum near w in [a, b]; beside w itself where [a, b] does not bracket one."""
     from scipy.optimize import brentq
 
@@ -180,7 +218,7 @@ def _polished(curve: _Curve, a: float, b: float, w: float) -> tuple[float, float
     return float(curve.distance(np.array(w))), float(w)
 
 
-def closest(curve: _Curve) -> tuple[float, float]:
+def closest(curve: NyquistCurve) -> tuple[float, float]:
     """min |1 + W| over the whole curve and where, to a certified relative 1e-6 and in fact to rounding."""
     grid, best, at = curve.grid()
     a, b = grid[:-1], grid[1:]

@@ -13,13 +13,13 @@ z = 1 and polynomials in cos(a) would lose it to rounding.
 import cmath
 import math
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 
 ON_CIRCLE = 1e-9
 ROUNDING = 4e-16
 FINEST = 1e-7
+PARTS = 8  # into which an interval is cut whose slope may change its sign
 
 
 class CircleTransfer:
@@ -71,13 +71,20 @@ class CircleTransfer:
 
     def curvature(self, a: np.ndarray, b: np.ndarray, of_phase: bool = False) -> np.ndarray:
         """What |d2/da2 log G| cannot exceed on [a, b]; of its phase, in which roots on the circle turn evenly."""
-        total = np.zeros(len(a))
-        for roots in (self.zeros, self.poles):
-            roots = roots[~on_circle(roots)] if of_phase else roots
-            near, _ = self.distances(roots, a, b)
-            with np.errstate(divide="ignore"):
-                total = total + (abs(roots)[:, None] / near**2).sum(axis=0)
-        return total
+        size, root, angle, turning = self._roots
+        if of_phase:
+            size, root, angle = size[turning], root[turning], angle[turning]
+        across = np.minimum(abs(np.sin((a - angle) / 2)), abs(np.sin((b - angle) / 2)))
+        squared = (1 - size) ** 2 + np.where((a <= angle) & (angle <= b), 0.0, 2 * root * across) ** 2
+        with np.errstate(divide="ignore"):
+            return np.asarray((size / squared).sum(axis=0))
+
+    @cached_property
+    def _roots(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Size, its root and angle of zeros and poles, as columns; which do not lie on the circle."""
+        roots = np.concatenate([self.zeros, self.poles])
+        size = abs(roots)[:, None]
+        return size, np.sqrt(size), np.angle(roots)[:, None], ~on_circle(roots)
 
     @cached_property
     def start(self) -> float:
@@ -96,9 +103,10 @@ class CircleTransfer:
             slope = self.log_slope(middle)
             slope, bend = slope.imag if of_phase else slope.real, self.curvature(low, high, of_phase)
             open_ = (abs(slope) <= bend * (high - low) / 2) & (high - low > FINEST * high)
-            low, high, middle = low[open_], high[open_], middle[open_]
-            done.append(middle)
-            low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+            share = np.arange(PARTS + 1)[:, None] / PARTS
+            cuts = low[open_] + share * (high[open_] - low[open_])
+            done.append(cuts[1:-1].ravel())
+            low, high = cuts[:-1].ravel(), cuts[1:].ravel()
         return np.unique(np.concatenate(done))
 
     @cached_property
@@ -127,10 +135,10 @@ class CircleTransfer:
         cuts = self._monotone(of_phase=False)
         with np.errstate(divide="ignore"):
             level = np.log(abs(self(cuts)))
+            sides = np.where(np.isfinite(level), np.sign(level), 0.0)
         found = [
-            brentq(self._log_magnitude, a, b, xtol=1e-15 * b, rtol=1e-14)
-            for (a, b), (low, high) in zip(pairwise(cuts), pairwise(level), strict=True)
-            if np.isfinite(low) and np.isfinite(high) and low * high < 0
+            brentq(self._log_magnitude, cuts[i], cuts[i + 1], xtol=1e-15 * cuts[i + 1], rtol=1e-14)
+            for i in np.flatnonzero(sides[:-1] * sides[1:] < 0)
         ]
         return np.array(found)
 

@@ -93,13 +93,15 @@ def _groups(linked: np.ndarray, joined: np.ndarray) -> list[list[int]]:
 def _refined(p: np.ndarray, roots: np.ndarray, joined: np.ndarray, width: np.ndarray) -> np.ndarray | None:
     """The roots, equal where joined alike, that give p best (Gauss and Newton); None where not to rounding."""
     heads, member, times = np.unique(joined, return_inverse=True, return_counts=True)
-    if len(heads) == len(roots):
+    if len(heads) == len(roots) or not width.all():
         return None
     places = np.array([roots[joined == head].mean() for head in heads])
     for _ in range(STEPS):
         whole = p[0] * np.poly(np.repeat(places, times))
         one_less = (np.repeat(places, times - each) for each in np.eye(len(places), dtype=int))
         slopes = [np.append(0.0, -m * p[0] * np.poly(rest)) for m, rest in zip(times, one_less, strict=True)]
+        if not np.isfinite(whole).all():
+            return None
         places = places + np.linalg.lstsq((np.array(slopes) / width).T, (p - whole) / width, rcond=None)[0]
     back = p[0] * np.poly(np.repeat(places, times))
     if (abs(back - p) > ROUNDED * len(roots) * width).any():

@@ -85,3 +85,52 @@ def positive(value: Any, name: str, error: type[ValueError] = ValueError, unit: 
     if not number > 0:
         raise error(f"{name} = {in_a_sentence(value)}{unit} must be positive")
     return number
+
+
+def whole(value: Any, name: str, error: type[ValueError] = ValueError, least: int = 0) -> int:
+    """The same number as an int, `least` or more. Raises `error` for fractions, text and truth values.
+
+    >>> whole(np.int64(3), "order")
+    3
+    """
+    try:
+        number = plain_number(value)
+    except TypeError:
+        number = None
+    if not isinstance(number, int | Fraction) or number != int(number) or number < least:
+        raise error(f"{name} = {in_a_sentence(value)}: a whole number, {least} or more, is expected")
+    return int(number)
+
+
+def complex_number(value: Any, name: str, error: type[ValueError] = ValueError) -> complex:
+    """The same number as a finite complex one. Raises `error` for anything else.
+
+    >>> complex_number(Fraction(1, 2), "pole")
+    (0.5+0j)
+    """
+    symbolic = getattr(value, "is_number", False) and not getattr(value, "is_real", True)
+    if isinstance(value, complex | np.complexfloating) or symbolic:
+        number = complex(value)
+        if math.isfinite(number.real) and math.isfinite(number.imag):
+            return number
+        raise error(f"{name} = {in_a_sentence(value)}: a finite number is expected")
+    return complex(real(value, name, error))
+
+
+def real_array(values: Any, name: str, error: type[ValueError] = ValueError) -> np.ndarray:
+    """The same numbers as an array of finite floats, of any shape. Raises `error` for text, complex numbers and NaN.
+
+    >>> real_array([1, Fraction(1, 2)], "t").tolist()
+    [1.0, 0.5]
+    """
+    array = np.asarray(values)
+    if array.dtype.kind == "O":
+        found = np.array([real(value, f"{name}[{i}]", error) for i, value in enumerate(array.flat)])
+        return found.reshape(array.shape)
+    if array.dtype.kind not in "iufb":
+        raise error(f"{name} = {in_a_sentence(values)}: {EXPECTED}")
+    found = array.astype(float, copy=False)
+    if not np.isfinite(found).all():
+        first = int(np.flatnonzero(~np.isfinite(found))[0])
+        raise error(f"{name}[{first}] = {found.flat[first]:g}: a finite number is expected")
+    return found

@@ -46,6 +46,9 @@ class Signal:
         if self.edges.shape != (len(self.coefficients) + 1,):
             raise ValueError(f"{len(self.coefficients)} cells need {len(self.coefficients) + 1} edges")
 
+    def __repr__(self) -> str:
+        return f"Signal({len(self.coefficients)} cells from {self.start:g} to {self.end:g} s)"
+
     @property
     def start(self) -> float:
         return float(self.edges[0])
@@ -66,7 +69,7 @@ class Signal:
         if t.size and t.max() > self.end * (1 + 1e-12):
             raise HorizonError(f"t = {t.max():g} s lies beyond the horizon, {self.end:g} s: ask for a longer one")
         cell = np.clip(np.searchsorted(self.edges, t, side="right") - 1, 0, len(self.coefficients) - 1)
-        x = 2 * (t - self.edges[cell]) / self.lengths[cell] - 1
+        x = 2 * (np.maximum(t, self.start) - self.edges[cell]) / self.lengths[cell] - 1
         return np.where(t < self.start, 0.0, series(np.moveaxis(self.coefficients[cell], -1, 0), x))
 
     def delayed(self, delay: float) -> "Signal":

@@ -13,6 +13,9 @@ from loopbook.plots.legend import legend_below
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+ANGLES, MOST_TICKS = (5, 15, 30, 45, 90, 180, 360), 7
+BOX = {"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7}
+BESIDE: dict[str, Any] = {"textcoords": "offset points", "xytext": (5, 0), "bbox": BOX}
 NEAR = 3.0  # how far a Nyquist diagram looks beyond what is near -1
 
 
@@ -47,7 +50,9 @@ def bode_figure(curves: Mapping[str, Curve], title: str) -> "Figure":
         legend_below(fig, axes[0])
     axes[0].set_ylabel("gain")
     axes[1].set_ylabel("phase [°]")
-    axes[1].yaxis.set_major_locator(plt.MaxNLocator(steps=[1, 1.5, 3, 4.5, 9]))
+    low, high = axes[1].get_ylim()
+    step = next((step for step in ANGLES if (high - low) / step <= MOST_TICKS), 360 * (1 + int((high - low) / 2520)))
+    axes[1].yaxis.set_major_locator(plt.MultipleLocator(step))
     axes[1].set_xlabel("frequency $\\omega$ [rad/s]")
     axes[0].set_title(title)
     for axis in axes:
@@ -69,14 +74,14 @@ def _draw_margins(axes: Any, curve: Curve) -> None:
     if gains:
         w, g = min(gains, key=lambda pair: pair[1])
         axes[0].plot([w, w], [1 / g, 1.0], color="black", linewidth=1.6)
-        axes[0].annotate(f"$G_m = {g:.3g}$", (w, 1 / math.sqrt(g)), textcoords="offset points", xytext=(5, 0))
+        axes[0].annotate(f"$G_m = {g:.3g}$", (w, 1 / math.sqrt(g)), **BESIDE)
         axes[1].axvline(w, color="0.6", linewidth=0.8, linestyle=":")
     if phases:
         w, p = min(phases, key=lambda pair: abs(pair[1]))
         at = float(np.interp(math.log(w), np.log(curve.w), curve.phase))
         axes[1].axhline(at - p, color="0.5", linewidth=0.8)
         axes[1].plot([w, w], [at - p, at], color="black", linewidth=1.6)
-        axes[1].annotate(f"$\\varphi_m = {p:.3g}$°", (w, at - p / 2), textcoords="offset points", xytext=(5, 0))
+        axes[1].annotate(f"$\\varphi_m = {p:.3g}$°", (w, at - p / 2), **BESIDE)
         axes[0].axvline(w, color="0.6", linewidth=0.8, linestyle=":")
 
 

@@ -5,11 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from loopbook.controllers.rst import NEAR, PlacementError, Polynomial, Rst, _row, with_zeros, zeros_of
-from loopbook.numerics.real_numbers import positive
+from loopbook.numerics.real_numbers import positive, whole
+from loopbook.plots.short_repr import ShortRepr
+
+CONTAINED = 1e-9
 
 
-@dataclass(frozen=True)
-class Placement:
+@dataclass(frozen=True, repr=False)
+class Placement(ShortRepr):
     """A solved pole placement. regulator: the `Rst`. condition: of the Sylvester matrix with columns scaled to 1; the
     relative error of the coefficients is at most about condition * 1e-16. residual: largest |A R + B S - P A_o B+|
     relative to the largest coefficient of A R. cancelled: the zeros of B that were.
@@ -19,6 +22,9 @@ class Placement:
     condition: float
     residual: float
     cancelled: np.ndarray
+
+    def _repr_latex_(self) -> str:
+        return self.regulator._repr_latex_()
 
 
 def well_damped(zeros: np.ndarray, damping: float) -> np.ndarray:
@@ -52,9 +58,9 @@ def place_numerically(
     B, A: sampled process (`sampling.sample(...).polynomials`), B with its delays as leading zeros. P, observer: wanted
     polynomials starting with 1 (`with_zeros`). h [s]. integrators: how many the regulator has. cancel_damping: cancel
     the zeros of B at least so well damped (see `well_damped`); None cancels none.
-    Raises PlacementError where A (1 - z^-1)^integrators and B share a factor, by name; where B has no delay or is zero;
-    where P or A_o does not start with 1; where P(1) or B(1) is zero; where h is not positive. A long P makes R longer,
-    never an error.
+    A factor that A (1 - z^-1)^integrators and B share is cancelled where P A_o contains it: every loop keeps that pole.
+    Raises PlacementError where it does not, by name; where B has no delay or is zero; where P or A_o does not start
+    with 1; where P(1) or B(1) is zero; where h is not positive. A long P makes R longer, never an error.
 
     >>> design = place_numerically([0, 0.5], [1, -0.8], with_zeros([0.3]), h=1.0)
     >>> [float(round(c, 9)) for c in (*design.regulator.R, *design.regulator.S, *design.regulator.T)]
@@ -62,8 +68,7 @@ def place_numerically(
     """
     A, B, P, observer = _row(A, "A"), _row(B, "B"), _row(P, "P"), _row(observer, "observer")
     h = positive(h, "h", PlacementError, " s")
-    if not (isinstance(integrators, int | np.integer) and integrators >= 0):
-        raise PlacementError(f"integrators = {integrators!r}: a whole number, 0 or more, is expected")
+    integrators = whole(integrators, "integrators", PlacementError)
     if A[0] == 0:
         raise PlacementError(f"A = {A.tolist()} must have a term without delay")
     A, B = A / A[0], B / A[0]
@@ -75,13 +80,12 @@ def place_numerically(
             raise PlacementError(f"{name} = {p.tolist()} must start with 1")
     fixed = with_zeros([1.0] * integrators) if integrators else np.ones(1)
     A_fixed = np.convolve(A, fixed)
-    _refuse_common_factor(A, fixed, B)
     chosen = zeros_of(B)
     cancelled = chosen[well_damped(chosen, cancel_damping)] if cancel_damping is not None else chosen[:0]
     B_plus = with_zeros(cancelled.tolist())
     B_rest = _row(_quotient(B, B_plus), "B")
     wanted = np.convolve(P, observer)
-    R_short, S, condition = _sylvester(A_fixed, B_rest, wanted)
+    R_short, S, condition = _sylvester(*_without_common_factor(A_fixed, B_rest, wanted, fixed))
     if abs(B_rest.sum()) <= NEAR * abs(B_rest).sum() or P.sum() == 0:
         raise PlacementError("P(1)/B(1) gives no static gain: P has a pole at z = 1 or B a zero there")
     gain = P.sum() / B_rest.sum()
@@ -108,17 +112,37 @@ def _quotient(p: np.ndarray, factor: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros(delays), np.atleast_1d(quotient)])
 
 
-def _refuse_common_factor(A: Polynomial, fixed: Polynomial, B: Polynomial) -> None:
-    zeros = zeros_of(B)
-    for name, p in (("the integrator", fixed), ("A", A)):
-        for pole in zeros_of(p):
-            close = abs(zeros - pole) < NEAR * max(1.0, abs(pole)) if zeros.size else np.zeros(0, bool)
-            if close.any():
-                at = f"{pole.real:.6g}" if abs(pole.imag) < 1e-12 else f"{pole:.6g}"
-                raise PlacementError(
-                    f"{name} and B share the factor 1 - ({at}) z^-1: every loop keeps a pole there, and it cannot be "
-                    "placed; cancel it in the process first, or leave out the integrator"
-                )
+def _without_common_factor(
+    A: np.ndarray, B: np.ndarray, wanted: np.ndarray, fixed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The three without the factors 1 - p z^-1 that A and B share, which `wanted` must contain."""
+    zeros, own = list(zeros_of(B)), list(zeros_of(fixed))
+    shared: list[complex] = []
+    for pole in zeros_of(A):
+        near = [zero for zero in zeros if abs(zero - pole) < NEAR * max(1.0, abs(pole))]
+        if not near:
+            continue
+        zeros.remove(near[0])
+        rest = _quotient(wanted, with_zeros(shared)) if _in_pairs(shared) else wanted
+        if not _vanishes(rest, pole):
+            name = "the integrator" if any(abs(pole - z) < NEAR for z in own) else "A"
+            at = f"{pole.real:.6g}" if abs(pole.imag) < 1e-12 else f"{pole:.6g}"
+            raise PlacementError(
+                f"{name} and B share the factor 1 - ({at}) z^-1, which P does not contain: every loop keeps a pole "
+                "there; put it into P, cancel it in the process first, or leave out the integrator"
+            )
+        shared.append(pole)
+    factor = with_zeros(shared)
+    return _quotient(A, factor), _quotient(B, factor), _quotient(wanted, factor)
+
+
+def _in_pairs(roots: list[complex]) -> bool:
+    return abs(sum(root.imag for root in roots)) < NEAR
+
+
+def _vanishes(p: np.ndarray, root: complex) -> bool:
+    powers = np.asarray(root, dtype=complex) ** -np.arange(len(p))
+    return bool(abs((p * powers).sum()) <= CONTAINED * np.abs(p * powers).sum())
 
 
 def _sylvester(A: np.ndarray, B: np.ndarray, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:

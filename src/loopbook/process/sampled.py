@@ -19,7 +19,7 @@ import numpy as np
 
 from loopbook.numerics import polynomial_text
 from loopbook.numerics.fixed_point import FixedPoint
-from loopbook.numerics.real_numbers import real
+from loopbook.numerics.real_numbers import real, real_array
 from loopbook.numerics.state_space import StateSpace, observer_form
 from loopbook.numerics.units import power_of_two
 from loopbook.plots.curves import curves
@@ -64,6 +64,9 @@ class SampledProcess:
     plant: StateSpace
     whole: int
     tau: float
+
+    def __repr__(self) -> str:
+        return f"SampledProcess({self.process!r}, h={self.h!r})"
 
     @cached_property
     def matrices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -126,7 +129,7 @@ class SampledProcess:
         """
         from scipy.signal import lfilter
 
-        return lfilter(self.num, self.den, np.asarray(u, dtype=float))
+        return lfilter(self.num, self.den, real_array(u, "u", ProcessError))
 
     def latex(self) -> str:
         """B/A in LaTeX, in powers of z^-1."""

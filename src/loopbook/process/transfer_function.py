@@ -1,4 +1,4 @@
-"""A process: a rational transfer function times an exact dead time.
+"""A process: a rational transfer function times an exact dead time; sums of them, and what algebra makes of them.
 
     G(s) = (b_0 s^m + ... + b_m) / (a_0 s^n + ... + a_n) * exp(-L s),   m <= n, L >= 0
 
@@ -14,61 +14,63 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from derivations.errors import LoopbookError
-from loopbook.extras import needed
-from loopbook.numerics import horner, polynomial_text
-from loopbook.numerics.multiple_roots import roots_of
+from loopbook.numerics import horner
+from loopbook.numerics.characteristic_roots import zeros_in
+from loopbook.numerics.exponential_polynomial import SAME_DELAY, ExponentialPolynomial, same_delay
 from loopbook.numerics.real_numbers import in_a_sentence, plain_number, positive, real
+from loopbook.numerics.several_delays import step_response
+from loopbook.numerics.signals import Signal
 from loopbook.numerics.step_response import open_loop_step
-from loopbook.numerics.units import characteristic_time, in_units
+from loopbook.numerics.units import rounded_sum
 from loopbook.plots.curves import curves
 from loopbook.plots.shown import shown_once
+from loopbook.process import formulas
+from loopbook.process.algebra import Fraction, TransferAlgebra, added
+from loopbook.process.horizon import default_horizon
+from loopbook.process.interchange import Interchange
+from loopbook.process.rows import ProcessError, checked_coefficients, roots_in_own_time
+
+PAST_THE_END = 1e-9
+"""Of a horizon: a response that jumps at its end has jumped there."""
+
+__all__ = ["DelayedSum", "Process", "ProcessError", "TransferFunction", "checked_coefficients"]
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class ProcessError(LoopbookError):
-    """A transfer function that cannot be a process; the message says which number and why."""
+class _Transfer(TransferAlgebra):
+    def simplest(
+        self, num: ExponentialPolynomial, den: ExponentialPolynomial
+    ) -> "Process | DelayedSum | TransferFunction":
+        return simplest(num, den)
 
+    def latex(self) -> str:
+        """The formula in LaTeX."""
+        raise NotImplementedError
 
-def checked_coefficients(values: Sequence[float], name: str) -> tuple[float, ...]:
-    """Descending real coefficients without leading zeros; ProcessError for anything else.
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
 
-    >>> checked_coefficients([0, 2, 1], "num")
-    (2.0, 1.0)
-    """
-    if not (type(values) is tuple and values and all(type(c) is float for c in values)):
-        values = _row(values, name)
-    if not all(map(math.isfinite, values)):
-        raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be finite")
-    row = list(values)
-    while len(row) > 1 and not row[0]:
-        del row[0]
-    return tuple(row) if row != [0.0] else (0.0,)
+    @property
+    def poles(self) -> np.ndarray:
+        """The poles [1/s], multiple ones repeated; of a loop with dead time the rightmost (see `loop.roots`)."""
+        return _repeated(self.fraction[1])
 
+    @property
+    def zeros(self) -> np.ndarray:
+        """The zeros [1/s], as the poles."""
+        return _repeated(self.fraction[0])
 
-def _row(values: Any, name: str) -> list[float]:
-    """A row of floats from whatever holds one."""
-    array = np.atleast_1d(np.asarray(values, dtype=object))
-    row = list(array)
-    if not row or array.ndim > 1 or isinstance(row[0], list | tuple):
-        raise ProcessError(
-            f"{name} = {in_a_sentence(values)}: a row of coefficients in descending powers of s is expected"
-        )
-    try:
-        return [float(plain_number(c)) for c in row]
-    except (TypeError, OverflowError):
-        raise ProcessError(f"{name} = {in_a_sentence(values)}: the coefficients must be real numbers") from None
-
-
-def _roots(p: Sequence[float]) -> np.ndarray:
-    time = characteristic_time((1.0,), p, 0.0)
-    return roots_of(in_units(p, time)) / time
+    def plot(self, horizon: float | None = None) -> "Figure":
+        """The unit step response as a matplotlib figure, up to the horizon [s]."""
+        y = self.step_signal(default_horizon(*self.fraction) if horizon is None else horizon)
+        t = np.linspace(0.0, y.end, 600)
+        return shown_once(curves({"output $y$": {"step response": (t, y(t))}}, "Unit step response"))
 
 
 @dataclass(frozen=True)
-class Process:
+class Process(_Transfer, Interchange):
     """A proper rational transfer function with dead time, y/u.
 
     num, den: real coefficients in descending powers of s, lengths m+1 <= n+1. delay: dead time L [s], >= 0.
@@ -117,31 +119,6 @@ class Process:
             raise ProcessError(f"time_constant = {in_a_sentence(time_constant)} s must not be negative")
         return cls((gain,), (lag, 1.0, 0.0), delay)
 
-    @classmethod
-    def from_control(cls, system: Any, delay: float = 0.0) -> "Process":
-        """From a continuous single-input single-output `control.TransferFunction`, which holds no dead time itself."""
-        if getattr(system, "ninputs", None) != 1 or system.noutputs != 1:
-            raise ProcessError("from_control takes a system with one input and one output")
-        if system.dt not in (0, None):
-            raise ProcessError(f"from_control takes a continuous system, got one with dt = {system.dt}")
-        return cls(tuple(system.num[0][0]), tuple(system.den[0][0]), delay)
-
-    def to_control(self, pade: int | None = None) -> Any:
-        """As a `control.TransferFunction`.
-
-        pade: order of the Padé approximation of the dead time. Without it a process with dead time is refused, as
-        python-control has no form for it.
-        """
-        control = needed("control", "control")
-        rational = control.tf(list(self.num), list(self.den))
-        if not self.delay:
-            return rational
-        if pade is None:
-            raise ProcessError(
-                f"python-control cannot hold the dead time {self.delay} s: ask for pade=order, or take .rational"
-            )
-        return rational * control.tf(*control.pade(self.delay, pade))
-
     def __call__(self, s: Any) -> Any:
         s = np.asarray(s)
         return horner.value(self.num, s) / horner.value(self.den, s) * np.exp(-self.delay * s)
@@ -152,25 +129,16 @@ class Process:
         >>> Process([2], [40, 14, 1], 3).latex()
         '\\\\frac{2}{(10 s + 1) (4 s + 1)} e^{-3 s}'
         """
-        below = polynomial_text.lags(self.den)
-        above = polynomial_text.descending(self.num)
-        ratio = above if below == "1" else rf"\frac{{{above}}}{{{below}}}"
-        return ratio + (rf" e^{{-{polynomial_text.number(self.delay)} s}}" if self.delay else "")
+        return formulas.ratio(self.num, self.den, self.delay)
 
-    def _repr_latex_(self) -> str:
-        return f"$${self.latex()}$$"
+    @property
+    def fraction(self) -> Fraction:
+        """num exp(-delay s) and den."""
+        return ExponentialPolynomial.of(self.num, self.delay), ExponentialPolynomial.of(self.den)
 
-    def plot(self, horizon: float | None = None) -> "Figure":
-        """The unit step response as a matplotlib figure, up to the horizon [s]."""
-        if horizon is None:
-            horizon = self.delay * 2 + 7 * float(sum(1 / abs(p.real) for p in self.poles if p.real)) or 10.0
-        t = np.linspace(0.0, horizon, 600)
-        return shown_once(curves({"output $y$": {"step response": (t, self.step(t))}}, "Unit step response"))
-
-    def __mul__(self, other: "Process | float") -> "Process":
-        if isinstance(other, Process):
-            num, den = np.convolve(self.num, other.num), np.convolve(self.den, other.den)
-            return Process(tuple(num.tolist()), tuple(den.tolist()), self.delay + other.delay)
+    def __mul__(self, other: Any) -> Any:
+        if hasattr(other, "fraction"):
+            return super().__mul__(other)
         try:
             factor = real(plain_number(other), "factor", ProcessError)
         except TypeError:
@@ -179,8 +147,17 @@ class Process:
 
     __rmul__ = __mul__
 
-    def __add__(self, other: "Process | DelayedSum") -> "DelayedSum":
-        return DelayedSum((self,)) + other
+    def __add__(self, other: Any) -> Any:
+        if self.delay and not isinstance(other, TransferAlgebra):
+            other = as_process(other)
+        if isinstance(other, DelayedSum) or (isinstance(other, Process) and not same_delay(other.delay, self.delay)):
+            return DelayedSum((self,)) + other
+        return super().__add__(other)
+
+    __radd__ = __add__
+
+    def __repr__(self) -> str:
+        return f"Process(num={formulas.short_row(self.num)}, den={formulas.short_row(self.den)}, delay={self.delay!r})"
 
     @property
     def rational(self) -> "Process":
@@ -212,12 +189,12 @@ class Process:
     @cached_property
     def poles(self) -> np.ndarray:
         """The roots of den, complex, shape (order,)."""
-        return _roots(self.den)
+        return roots_in_own_time(self.den)
 
     @cached_property
     def zeros(self) -> np.ndarray:
         """The roots of num, complex."""
-        return _roots(self.num)
+        return roots_in_own_time(self.num)
 
     def step(self, times: Any, amplitude: float = 1.0) -> np.ndarray:
         """The response to a step of the input at t = 0 from rest, exact to rounding, at any `times` [s].
@@ -227,13 +204,15 @@ class Process:
         >>> Process.fopdt(2, 3, 1).step([0.5, 4.0])
         array([0.        , 1.26424112])
         """
-        times = np.asarray(times, dtype=float)
-        horizon = max(float(times.max(initial=0.0)) - self.delay, 0.0)
-        return amplitude * open_loop_step(self.rational, horizon).delayed(self.delay)(times)
+        return amplitude * super().step(times)
+
+    def step_signal(self, horizon: float) -> Signal:
+        """The unit step response on [0, horizon] s as a `Signal`: to be called, integrated, asked for its peak."""
+        return open_loop_step(self.rational, max(horizon - self.delay, 0.0)).delayed(self.delay)
 
 
 @dataclass(frozen=True)
-class DelayedSum:
+class DelayedSum(_Transfer):
     """A sum of processes with dead times of their own: the path of a disturbance that enters elsewhere.
 
     Calling it evaluates the sum at complex s.
@@ -247,9 +226,132 @@ class DelayedSum:
     def __call__(self, s: Any) -> Any:
         return sum(term(s) for term in self.terms)
 
-    def __add__(self, other: "Process | DelayedSum") -> "DelayedSum":
-        if isinstance(other, Process):
-            return DelayedSum((*self.terms, other))
+    @property
+    def fraction(self) -> Fraction:
+        """All terms over one denominator."""
+        total: Any = Process((0.0,), (1.0,)).fraction
+        for term in self.terms:
+            total = added(total, term.fraction)
+        return total
+
+    def __add__(self, other: Any) -> Any:
+        """Terms of one dead time and one denominator become one; the others stay as they are."""
+        other = other if isinstance(other, TransferAlgebra) else as_process(other)
+        if not isinstance(other, Process | DelayedSum):
+            return super().__add__(other)
+        rows: dict[tuple[Any, float], np.ndarray] = {}
+        for term in self.terms + (other.terms if isinstance(other, DelayedSum) else (other,)):
+            delay = next((d for _, d in rows if same_delay(d, term.delay)), term.delay)
+            key = term.den, delay
+            rows[key] = rounded_sum(rows[key].tolist(), term.num) if key in rows else np.asarray(term.num)
+        kept = tuple(Process(tuple(num.tolist()), den, delay) for (den, delay), num in rows.items() if num.any())
+        return DelayedSum(kept) if len(kept) > 1 else kept[0] if kept else Process((0.0,), (1.0,))
+
+    __radd__ = __add__
+
+    def __mul__(self, other: Any) -> Any:
         if isinstance(other, DelayedSum):
-            return DelayedSum(self.terms + other.terms)
-        return NotImplemented
+            return DelayedSum(tuple(a * b for a in self.terms for b in other.terms))
+        if hasattr(other, "fraction") and not isinstance(other, Process):
+            return super().__mul__(other)
+        products = tuple(term * other for term in self.terms)
+        return NotImplemented if any(p is NotImplemented for p in products) else DelayedSum(products)
+
+    __rmul__ = __mul__
+
+    def latex(self) -> str:
+        """The formula in LaTeX, term by term."""
+        text = self.terms[0].latex()
+        for term in self.terms[1:]:
+            negative = term.num[0] < 0
+            text += f" {'-' if negative else '+'} {(-term if negative else term).latex()}"
+        return text
+
+    def __repr__(self) -> str:
+        more = f", ... {len(self.terms)} terms" if len(self.terms) > 2 else ""
+        return f"DelayedSum(({', '.join(map(repr, self.terms[:2]))}{more}))"
+
+    def step_signal(self, horizon: float) -> Signal:
+        """The unit step response on [0, horizon] s."""
+        total: Any = self.terms[0].step_signal(horizon)
+        for term in self.terms[1:]:
+            total = total + term.step_signal(horizon)
+        return total
+
+
+@dataclass(frozen=True)
+class TransferFunction(_Transfer):
+    """num(s)/den(s), each a sum of polynomials times exponentials: whatever algebra makes that is no `Process`.
+
+    A closed loop with dead time, a differentiator, the inverse of a process. Calling it evaluates it at complex s.
+
+    >>> s = TransferFunction(ExponentialPolynomial.of([1, 0]), ExponentialPolynomial.of([1]))
+    >>> 2 / (3 * s + 1)
+    Process(num=(2.0,), den=(3.0, 1.0), delay=0.0)
+    >>> closed = Process.fopdt(2, 3, 1).feedback(0.5)
+    >>> type(closed).__name__, closed.static_gain
+    ('TransferFunction', 1.0)
+    """
+
+    num: ExponentialPolynomial
+    den: ExponentialPolynomial
+
+    @property
+    def fraction(self) -> Fraction:
+        """num and den."""
+        return self.num, self.den
+
+    def __call__(self, s: Any) -> Any:
+        return self.num(s) / self.den(s)
+
+    def latex(self) -> str:
+        """The formula in LaTeX."""
+        below = formulas.terms(self.den)
+        above = formulas.terms(self.num)
+        return above if below == "1" else rf"\frac{{{above}}}{{{below}}}"
+
+    def __repr__(self) -> str:
+        return f"TransferFunction({formulas.plain(self.num)} over {formulas.plain(self.den)})"
+
+    def step_signal(self, horizon: float) -> Signal:
+        """The unit step response on [0, horizon] s.
+
+        Raises ResponseError where the output would precede the input or be an impulse.
+        """
+        return step_response(self.num, self.den, horizon * (1 + PAST_THE_END))
+
+
+def simplest(num: ExponentialPolynomial, den: ExponentialPolynomial) -> Process | DelayedSum | TransferFunction:
+    """num/den as a `Process` where it is one, as a `DelayedSum` where its terms are, else as a `TransferFunction`.
+
+    Factors s and exp(-d s) that all terms share are divided out.
+    """
+    if num.is_zero:
+        return Process((0.0,), (1.0,))
+    num, den = num.delayed(-den.delays[0]), den.delayed(-den.delays[0])
+    shared = min(p[::-1].index(next(c for c in reversed(p) if c)) for f in (num, den) for _, p in f.terms)
+    num, den = num.over_s(shared), den.over_s(shared)
+    (_, below), *others = den.terms
+    longest = max(map(abs, num.delays))
+    proper = all(delay >= -SAME_DELAY * longest and len(p) <= len(below) for delay, p in num.terms)
+    if others or not proper:
+        return TransferFunction(num, den)
+    if len(below) == 1:
+        num, below = num.over(below[0]), (1.0,)
+    terms = tuple(Process(p, below, max(delay, 0.0)) for delay, p in num.terms)
+    return terms[0] if len(terms) == 1 else DelayedSum(terms)
+
+
+def _repeated(f: ExponentialPolynomial) -> np.ndarray:
+    if f.is_zero:
+        return np.zeros(0, complex)
+    found = zeros_in(f)[0]
+    return np.repeat(found.values.astype(complex), found.multiplicity)
+
+
+def as_process(number: Any) -> Any:
+    """A number as a process of that gain; anything else as it is."""
+    try:
+        return Process((real(plain_number(number), "gain", ProcessError),), (1.0,))
+    except TypeError:
+        return number

@@ -26,14 +26,15 @@ class Measures(NamedTuple):
 def measures(y: Signal, final: float, band: float, rise: tuple[float, float]) -> Measures:
     """Of a response from 0 to `final` that ends inside the band around it.
 
-    A peak that is only approached, as by a response without overshoot, is that of the end.
+    A peak that is only approached, as by a response without overshoot, is that of the end; of one jump, the jump.
     """
     low, high = (float(y.roots(share * final)[0]) for share in rise)
     entries = [*y.roots((1 + band) * final), *y.roots((1 - band) * final)]
     extremes = [(time, value / final) for time, value in (y.maximum(), y.minimum())]
     (bottom_time, bottom), (top_time, top) = sorted(extremes, key=lambda point: point[1])
     if top <= 1 + KNOWN:
-        top_time, top = y.end, float(y(y.end)) / final
+        at_once = high == low and abs(float(y(low)) / final - 1) <= KNOWN
+        top_time, top = (low if at_once else y.end), float(y(y.end)) / final
     peak, peak_time = (-bottom, bottom_time) if -bottom > top else (top, top_time)
     return Measures(
         rise=high - low,

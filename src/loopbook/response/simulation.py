@@ -21,6 +21,8 @@ from derivations.errors import LoopbookError
 from loopbook.numerics.collocation import DEGREE, DelayEquation, cell_operator, graded_mesh, radau
 from loopbook.numerics.signals import Signal
 from loopbook.plots.curves import curves
+from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.plots.shown import shown_once
 from loopbook.plots.stairs import stairs
 from loopbook.process.sampled import SampledProcess, held, sample
@@ -42,8 +44,8 @@ class Controller(Protocol):
     def step(self, y: float, reference: float) -> float: ...
 
 
-@dataclass(frozen=True)
-class Simulation:
+@dataclass(frozen=True, repr=False)
+class Simulation(ShortRepr, ShownAsTable):
     """What happened at the instants t = 0, h, 2h, ...; arrays of one length.
 
     t [s]. y: the process output. measured: what the controller saw (with noise). u: what the process got, after
@@ -91,6 +93,14 @@ class Simulation:
         order = np.argsort(np.concatenate(edges), kind="stable")
         all_edges = np.append(np.concatenate(edges)[order], self.t[-1])
         return Signal(all_edges, np.concatenate(rows)[order].reshape(-1, DEGREE + 1))
+
+    def table(self) -> PlainTable:
+        """Where the signals went: the last and the extreme values of y, u and the reference."""
+        rows = []
+        for name, row in (("reference", self.reference), ("output y", self.y), ("input u", self.u)):
+            rows.append([name, float(row[-1]), float(row.min()), float(row.max())])
+        said = f"{len(self.t)} instants, {self.sampled.h:g} s apart"
+        return PlainTable(["signal", "at the end", "least", "largest"], rows, [said])
 
     def plot(self) -> "Figure":
         """Output and input as a matplotlib figure, u as the staircase that it is."""

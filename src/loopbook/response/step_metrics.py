@@ -20,7 +20,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.numerics.signals import Signal
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
-from loopbook.response.signal_metrics import measures
+from loopbook.response.signal_metrics import KNOWN, measures
 
 BAND = 0.02
 RISE = (0.1, 0.9)
@@ -84,18 +84,21 @@ def _checked(t: np.ndarray, y: np.ndarray) -> None:
         raise StepMetricsError(f"t must increase; it does not after sample {np.flatnonzero(np.diff(t) <= 0)[0]}")
 
 
-def sampled_metrics(y: Any, t: Any = None, final: float | None = None, band: float = BAND) -> StepMetrics:
+def sampled_metrics(
+    y: Any, t: Any = None, final: float | None = None, band: float = BAND, *, rest: float | None = None
+) -> StepMetrics:
     """Metrics of samples in the convention of MATLAB's ``stepinfo(y, t)``.
 
-        rise       = t(90 %) - t(10 %), each the first crossing of y(1) + x (final - y(1)), linear between samples
+        rise       = t(90 %) - t(10 %), each the first crossing of rest + x (final - rest), linear between samples
         settling   = last time |y - final| falls to band * max|y - final|, linear between samples
         overshoot  = 100 max(0, max(y / final) - 1)           undershoot = 100 max(0, -min(y / final))
         peak       = max|y|, at its first sample
 
-    y: samples. t: their times, s, increasing; default 1, 2, ... as in MATLAB. final: default the last sample.
+    y: samples. t: their times, s, increasing; default 1, 2, ... as in MATLAB. final: default the last sample. rest: y
+    before the step, from which the first sample has jumped; by default the first sample (newer releases of MATLAB
+    take 0 unless told otherwise; the same where the response starts at 0).
     NaN stands for a rise or settling time that the samples do not contain, as in MATLAB; with final = 0 overshoot is
-    infinite. The initial value is the first sample (newer releases of MATLAB take 0 unless told otherwise; the same
-    where the response starts at 0). Raises StepMetricsError for NaN, unequal lengths, decreasing times.
+    infinite. Raises StepMetricsError for NaN, unequal lengths, decreasing times.
 
     >>> m = sampled_metrics([0, 0.5, 1.0, 1.0], [0, 1, 2, 3])
     >>> round(m.rise, 9), round(m.settling, 9), m.overshoot
@@ -105,16 +108,19 @@ def sampled_metrics(y: Any, t: Any = None, final: float | None = None, band: flo
     t = np.arange(1.0, len(y) + 1) if t is None else np.asarray(t, dtype=float)
     _checked(t, y)
     final = float(y[-1]) if final is None else float(final)
-    low, high = (_first_crossing(t, y, y[0] + share * (final - y[0])) for share in RISE)
     peak = int(np.argmax(np.abs(y)))
     over, under = _relative_to_final(y, final)
+    peak_value, peak_time = float(abs(y[peak])), float(t[peak])
+    if rest is not None and y[0] != rest:
+        y, t = np.append(rest, y), np.append(t[0], t)
+    low, high = (_first_crossing(t, y, y[0] + share * (final - y[0])) for share in RISE)
     return StepMetrics(
         rise=high - low,
         settling=_last_entry(t, y, final, band * float(np.max(np.abs(y - final)))),
         overshoot=over,
         undershoot=under,
-        peak=float(abs(y[peak])),
-        peak_time=float(t[peak]),
+        peak=peak_value,
+        peak_time=peak_time,
         final=final,
         convention="sampled",
     )
@@ -145,8 +151,8 @@ def _last_entry(t: np.ndarray, y: np.ndarray, final: float, band: float) -> floa
 def _relative_to_final(y: np.ndarray, final: float) -> tuple[float, float]:
     if final == 0:
         return inf, 0.0 if np.all(y >= 0) else inf
-    relative = y / final
-    return 100 * max(0.0, float(relative.max()) - 1), 100 * max(0.0, -float(relative.min()))
+    over, under = float((y / final).max()) - 1, -float((y / final).min())
+    return 100 * over if over > KNOWN else 0.0, 100 * under if under > KNOWN else 0.0
 
 
 def exact_metrics(
@@ -223,7 +229,7 @@ def exact_metrics(
 def _need_a_step(final: float, rest: float, largest: float) -> None:
     if abs(final - rest) <= NO_STEP * max(largest, abs(final)):
         raise StepMetricsError(
-            f"the response ends where it begins ({final:g}): rise, settling and overshoot refer to the step "
+            f"the response ends where it begins ({final + 0.0:g}): rise, settling and overshoot refer to the step "
             "final - y(0). For a disturbance response use its peak and integrals"
         )
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.registry import named, rules
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
@@ -14,8 +15,8 @@ ACTIONS = ("PI", "PID", "P")
 """What a name that leaves it open means, in this order."""
 
 
-@dataclass(frozen=True)
-class Tunings(ShownAsTable, Mapping[str, Tuning]):
+@dataclass(frozen=True, repr=False)
+class Tunings(ShortRepr, ShownAsTable, Mapping[str, Tuning]):
     """Settings by the rule's name. refused: by name, why a rule does not apply. Shows itself as a table."""
 
     found: Mapping[str, Tuning]

@@ -70,7 +70,7 @@ def _number(name: str, value: Any) -> float:
 
 
 def _positive(rule: Rule, values: Mapping[str, float], defaulted: Collection[str]) -> None:
-    """A dead time of zero would give an infinite gain; an option must be a positive time."""
+    """A dead time of zero would give an infinite gain; an option is a positive time, closed zero beside a dead time."""
     asked = {_name(letter) for letter in rule.inputs}
     for name in ("closed", "i"):
         if name == "closed" and name in asked and name in defaulted and values[name] == 0:
@@ -78,8 +78,10 @@ def _positive(rule: Rule, values: Mapping[str, float], defaulted: Collection[str
                 "without dead time the recommended closed = T0 is zero and the gain infinite: give closed, the time "
                 "constant that the closed loop shall have"
             )
-        if name in asked and not (math.isfinite(values[name]) and values[name] > 0):
-            raise RuleDoesNotApply(f"{name} = {values[name]:g} must be a positive number")
+        at_once = name == "closed" and values.get(name) == 0 and max(values.get("L", 0), values.get("L1", 0)) > 0
+        if name in asked and not (at_once or (math.isfinite(values[name]) and values[name] > 0)):
+            zero = " (or 0 beside a dead time)" if name == "closed" else ""
+            raise RuleDoesNotApply(f"{name} = {values[name]:g} must be a positive number{zero}")
     if any(name in asked and values[name] == 0 and "closed" not in asked for name in ("L", "L1")):
         raise RuleDoesNotApply(
             "without dead time (L = 0) its gain is infinite: the process is a pure lag; give the dead "

@@ -152,6 +152,12 @@ class ProcessData:
     def _half_rule(self, order: int) -> tuple[dict[str, float], str]:
         process = self._need("lags")
         lags, inverse = (self.lags, ()) if self.lags is not None else lags_of(process)
+        if not lags:
+            raise RuleDoesNotApply(
+                "the process is dead time alone: without a lag the rule leaves integral action alone, "
+                "I = 1/(Kp (closed + T0))",
+                "use PidParallel(0, I)",
+            )
         kept, L = half_rule(lags, process.delay, inverse, min(order, len(lags)))
         second = kept[1] if len(kept) > 1 else 0.0
         how = "its own lags and dead time" if len(lags) <= order else f"half rule on {len(lags)} lags"
@@ -245,6 +251,7 @@ def _data_of(item: Any) -> Any:
 
 
 def _gain(process: Process) -> float:
-    """The sign of the response to a step in the long run."""
+    """The sign of the response to a step in the long run; an unstable pole, which grows the other way, turns it."""
     den = [c for c in process.den if c]
-    return process.num[-1] / den[-1]
+    unstable = int((process.poles.real > 0).sum()) if process.order else 0
+    return process.num[-1] / den[-1] * (-1) ** unstable

@@ -2,9 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from loopbook.controllers.pid_forms import LEFT_OUT, PidStandard
 from loopbook.controllers.regulator import Regulator
+from loopbook.plots.plain_table import PlainTable
+from loopbook.plots.short_repr import ShortRepr
 from loopbook.refusal import Refusal
 
 
@@ -12,8 +15,8 @@ class RuleDoesNotApply(Refusal):
     """A tuning rule was asked for a process it does not cover; the message names the rule that does."""
 
 
-@dataclass(frozen=True)
-class Tuning:
+@dataclass(frozen=True, repr=False)
+class Tuning(ShortRepr):
     """Settings and where they come from.
 
     pid: standard form as published, mostly without filter; Ti = inf without integral action, Td = 0 without derivative
@@ -77,6 +80,16 @@ class Tuning:
     def regulator(self) -> Regulator:
         """The polynomials T, S, R of the settings as they are built: what closes a `Loop`."""
         return self.as_built().regulator()
+
+    def table(self) -> PlainTable:
+        """The settings with their source, how they are known, and what limits the trust in them."""
+        rows: list[list[Any]] = [["K", self.K], ["Ti [s]", self.Ti], ["Td [s]", self.Td], ["b", self.b]]
+        rows += [["Tf [s]", self.pid.Tf]] if self.pid.Tf else []
+        rows += [["source", self.source], *([["known by", self.known_by]] if self.known_by else [])]
+        return PlainTable([self.rule, "standard form"], rows, [f"mind: {note}" for note in self.notes])
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()
 
     def __str__(self) -> str:
         times = f", Ti = {self.Ti:.4g} s" * (self.Ti < float("inf")) + f", Td = {self.Td:.4g} s" * bool(self.Td)

@@ -126,6 +126,7 @@ def test_the_transfer_function_in_z():
         (lambda: zero_order_hold(S / (S + 1), 1), "strictly proper"),
         (lambda: zero_order_hold(sp.exp(-S) / (S + 1), 1), "give the dead time as whole and part"),
         (lambda: zero_order_hold(1 / (S**5 + S + 1), 1), "factors of degree 1 and 2"),
+        (lambda: zero_order_hold(1 / (S**3 + sp.Symbol("x") * S + 1), 1), r"G = 1/\(x\*s \+ s\*\*3 \+ 1\)"),
         (lambda: dead_time_in_samples(sp.Symbol("L"), 1), "must be an exact number"),
         (lambda: dead_time_in_samples(-1, 1), "cannot be negative"),
     ],
@@ -182,3 +183,10 @@ def test_symbols_without_assumptions_are_real_numbers():
     exact = zero_order_hold(10 / (S**2 + 3 * S + 10), R(1, 10))
     for name, value in second.coefficients.items():
         assert abs(sp.N(value.subs(at) - exact.coefficients[name])) < 1e-14
+
+
+def test_a_fractional_delay_of_complex_poles_as_matlab_prints_it():
+    """MATLAB, c2d: 10 e^(-0.25 s)/(s^2 + 3 s + 10), Ts = 0.1: z^-3 (.01187 z^2 + .06408 z + .009721)/(...)."""
+    found = zero_order_hold(10 / (S**2 + 3 * S + 10), sp.Rational(1, 10), 2, sp.Rational(1, 2))
+    values = {name: float(f"{float(value):.4g}") for name, value in found.coefficients.items()}
+    assert values == {"a_1": -1.655, "a_2": 0.7408, "b_3": 0.01187, "b_4": 0.06408, "b_5": 0.009721}

@@ -28,4 +28,5 @@ def test_the_sets_are_those_of_the_tables(which):
 
 
 def test_the_rules_are_the_sets_for_the_set_point():
-    assert {rule.name for rule in rules()} == {f"chr-{k}-{o}" for k in ("p", "pi", "pid") for o in (0, 20)}
+    printed = {rule.name for rule in rules() if not rule.variant_of}
+    assert printed == {f"chr-{k}-{o}" for k in ("p", "pi", "pid") for o in (0, 20)}

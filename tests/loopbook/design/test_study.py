@@ -113,6 +113,7 @@ def test_a_measured_ultimate_point_is_what_the_frequency_rules_get(tmp_path):
     assert second["Ziegler-Nichols ultimate, PID"].Ti == pytest.approx(8.0)
     assert {n for n in first if first[n] != second[n]} == {
         *("Ziegler-Nichols ultimate, PI", "Ziegler-Nichols ultimate, PID"),
+        *("Tyreus-Luyben, PI", "Tyreus-Luyben, PID"),
         *("AMIGO frequency, PI", "AMIGO frequency, PID"),
     }
     file.write_text(file.read_text() + "[experiment]\nK180 = 0.5\nT180 = 16\n", encoding="utf-8")

@@ -275,3 +275,25 @@ def test_a_loop_gain_that_stays_above_one_bears_no_dead_time(num, den, K, T):
     process = Process([num[0] * T, num[1]], [den[0] * T, den[1]])
     assert Loop(process, K).margins().delay == 0.0
     assert not Loop(process.delayed(1e-9 * T), K).is_stable
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_peaks_of_a_loop_that_does_not_fall_off_with_dead_time(seed):
+    """Its curve turns for ever at one radius; Ms and Mt are found before that or are the limit, as on a dense grid."""
+    draw = np.random.default_rng(seed)
+    n = int(draw.integers(1, 4))
+    num = np.poly(-(10 ** draw.uniform(-1, 1, n)) * draw.choice([-1, 1], n))
+    process = Process(
+        draw.uniform(0.05, 0.9) * num, np.poly(-(10 ** draw.uniform(-1, 1, n))), 10 ** draw.uniform(-2, 0.5)
+    )
+    loop = Loop(process, 1.0)
+    while not loop.is_stable:
+        loop = loop.with_gain(0.7)
+    found = loop.margins()
+    w = np.append(1e-9, np.geomspace(1e-3, 1e5, 400_001))
+    G = loop.transfer(1j * w)
+    for peak, grid in ((found.Ms, abs(1 / (1 + G)).max()), (found.Mt, abs(G / (1 + G)).max())):
+        assert grid * (1 - 1e-6) <= peak.value <= grid * 1.02, peak
+        if np.isfinite(peak.w) and peak.w:
+            at = loop.transfer(1j * peak.w)
+            assert peak.value == pytest.approx(abs((at if peak is found.Mt else 1) / (1 + at)), rel=1e-9)

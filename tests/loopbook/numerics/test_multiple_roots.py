@@ -41,3 +41,8 @@ def test_random_polynomials_keep_their_roots():
         roots = np.roots(p)
         back = p[0] * np.poly(put_together(p, roots))
         assert abs(back - p).max() <= 1e-13 * abs(p).max()
+
+
+def test_crowded_roots_whose_product_is_too_small_for_a_number_stay_as_they_are():
+    roots = 1e-6 * (1 + 1e-9 * np.arange(60)) + 0j
+    assert put_together(np.poly(roots).real, roots).tolist() == roots.tolist()

@@ -105,3 +105,9 @@ def test_no_cell_of_a_step_response_is_a_sliver(delay):
     for horizon in np.linspace(0.5, 5, 200):
         response = open_loop_step(Process([0.37, 1.74], [1, 16.3, 271.7]), horizon).delayed(delay)
         assert response.lengths.min() > 1e-7 * horizon
+
+
+def test_times_before_a_signal_of_almost_no_length_leave_no_warning():
+    tiny = Signal(np.array([0.0, 1e-308]), np.ones((1, 3)))
+    with np.errstate(all="raise"):
+        assert tiny([-1.0, -1e300, 0.0]).tolist() == [0.0, 0.0, 1.0]

@@ -31,17 +31,21 @@ STABLE = Process([2], [40, 14, 1], 3)
 BALANCED = Process([2], [40, 14, 1], 10)  # kappa > 0.2: the frequency rules cover it
 INTEGRATING = Process([0.2], [4, 1, 0], 3)
 LAG = Process([2], [5, 1])
-GIVEN = {"closed": 5.0, "i": 0.5, "w": 0.1, "phase_margin": 60.0}
+GIVEN = {"closed": 5.0, "i": 0.5, "w": 0.1, "phase_margin": 60.0, "w0": 0.5, "zeta": 0.7}
+OWN = {"phase-margin-pi": {"w": 0.05}}  # a frequency at which a PI controller has that margin
 
 
 def fitting(rule) -> Process:
-    if rule.name.startswith("first-order"):
+    if rule.name.startswith("first-order") or rule.name == "damping-pi":
         return LAG
+    if rule.name == "damping-pid":
+        return STABLE.rational
     return INTEGRATING if rule.integrating else BALANCED
 
 
 def asked(rule, **scaled) -> dict:
-    return {name: scaled.get(name, GIVEN[name]) for name in rule.required}
+    given = {**GIVEN, **OWN.get(rule.name, {})}
+    return {name: given[name] * scaled.get(name, 1.0) for name in rule.required}
 
 
 @pytest.mark.parametrize("name", list(RULES))
@@ -67,7 +71,7 @@ def test_every_rule_scales_with_time_and_gain(name, factor):
         process.delay * factor,
     )
     one = rule(process, **asked(rule))
-    other = rule(stretched, **asked(rule, closed=5.0 * factor, w=0.1 / factor))
+    other = rule(stretched, **asked(rule, closed=factor, w=1 / factor, w0=1 / factor))
     assert other.K == pytest.approx(one.K / gain, rel=1e-6)
     assert other.Ti == pytest.approx(one.Ti * factor, rel=1e-6)
     assert other.Td == pytest.approx(one.Td * factor, rel=1e-6)
@@ -222,7 +226,7 @@ def test_what_an_experiment_found_is_taken():
 
 
 def test_a_phase_margin_is_had_at_its_frequency():
-    tuning = tune(STABLE, "phase margin", w=0.2, phase_margin=60)
+    tuning = tune(STABLE, "phase margin", "PID", w=0.2, phase_margin=60)
     margins = Loop(STABLE, tuning.pid).margins()
     assert margins.phase == pytest.approx(60, abs=1e-6) and margins.gain_crossovers[0].w == pytest.approx(0.2, rel=1e-9)
 
@@ -239,19 +243,19 @@ def test_a_rule_is_one_file(tmp_path, monkeypatch):
     from loopbook.tuning import registry
 
     how_to = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("## How to add a tuning rule")[2]
-    cohen_coon = textwrap.dedent(re.search(r"```python\n(.*?)```", how_to, re.DOTALL)[1])
-    (tmp_path / "cohen_coon.py").write_text(cohen_coon, encoding="utf-8")
+    pessen = textwrap.dedent(re.search(r"```python\n(.*?)```", how_to, re.DOTALL)[1])
+    (tmp_path / "pessen.py").write_text(pessen, encoding="utf-8")
     monkeypatch.setattr(folder, "__path__", [*folder.__path__, str(tmp_path)])
     importlib.invalidate_caches()
     try:
         for cached in (published.catalogue, registry.rules):
             cached.cache_clear()
-        rule = RULES["cohen-coon-pi"]
-        assert (rule.action, rule.takes, rule.year, rule.integrating) == ("PI", Takes.STEP, 1953, False)
-        tuning = tune(StepData(1, 1, 0.5), "cohen coon")
-        assert (tuning.K, tuning.Ti) == pytest.approx((2 * (0.9 + 0.5 / 12), 0.5 * (30 + 1.5) / (9 + 10)))
-        assert "Cohen-Coon, PI" in {c.name for c in candidates(Model(2.0, (10.0,), 3.0))[0]}
+        rule = RULES["pessen-pid"]
+        assert (rule.action, rule.takes, rule.year, rule.integrating) == ("PID", Takes.FREQUENCY, 1994, None)
+        tuning = tune(FrequencyData(0.5, 20), "pessen")
+        assert (tuning.K, tuning.Ti, tuning.Td) == pytest.approx((1.4, 8, 3))
+        assert "Pessen, PID" in {c.name for c in candidates(Model(2.0, (10.0,), 3.0))[0]}
     finally:
-        sys.modules.pop("derivations.tuning.cohen_coon", None)
+        sys.modules.pop("derivations.tuning.pessen", None)
         for cached in (published.catalogue, registry.rules):
             cached.cache_clear()

@@ -167,3 +167,107 @@ def test_ziegler_nichols():
     point = ultimate(third)
     assert rounds_to(point.K180, "0.125") and rounds_to(point.T180, "3.63")
     digits(tune(FrequencyData(point.K180, point.T180), "zn-ultimate-pid"), "4.8", "1.81")
+
+
+@pytest.mark.parametrize(
+    ("rule", "options", "printed"),
+    [  # a public comparison of rules on 1.5 e^(-15 s)/(60 s + 1): K, Ti, Ms, gain margin, phase margin
+        ("tyreus-luyben-pi", {}, (1.4447, 120.865, 1.5789, 3.065, 74.04)),
+        ("imc-pi", {"closed": 22.5}, (2.0, 67.5, 2.0883, 2.1226, 49.44)),
+        ("cohen-coon-pi", {}, (2.4556, 32.946, 3.6623, 1.5091, 23.07)),
+    ],
+)
+def test_three_rules_on_one_process(rule, options, printed):
+    process = Process.fopdt(1.5, 60, 15)
+    tuning = tune(process, rule, **options)
+    m = Loop(process, tuning).margins()
+    units = (1e-4, 1e-3, 1e-4, 1e-3, 1e-2)
+    for found, value, unit in zip((tuning.K, tuning.Ti, m.Ms.value, m.gain, m.phase), printed, units, strict=True):
+        assert found == pytest.approx(value, abs=unit), rule
+
+
+FORMULAS = {
+    # K k T0/T (or K/Ku), Ti/T0 (Ti/T, Ti/Tu), Td/T0 (Td/Tu) as the tables print them, at T = 4 T0
+    "zn-step-pi-3.33": (0.9, 3.33, 0),
+    "zn-step-pi-3.3": (0.9, 3.3, 0),
+    "chr-pid-20-1.36": (0.95, 1.36 * 4, 0.47),
+    "cohen-coon-p": (1 + 1 / 12, math.inf, 0),
+    "cohen-coon-pid": (4 / 3 + 1 / 16, (32 + 6 / 4) / (13 + 2), 4 / (11 + 0.5)),
+}
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_variants_by_their_tables(name):
+    tuning = tune(StepData(2.0, 20.0, 5.0), name)
+    found = (tuning.K * 2.0 * 5 / 20, tuning.Ti / 5, tuning.Td / 5)
+    assert found == pytest.approx(FORMULAS[name], rel=1e-12)
+
+
+def test_rules_of_the_ultimate_point_by_their_tables():
+    data = FrequencyData(0.25, 20.0)  # Ku = 4, Tu = 20 s
+    assert (tune(data, "zn-ultimate-pi-0.4").K, tune(data, "zn-ultimate-pi-0.4").Ti) == pytest.approx((1.6, 16))
+    pid = tune(data, "tyreus-luyben", "PID")  # Ku/2.2, 2.2 Tu, Tu/6.3
+    assert (pid.K, pid.Ti, pid.Td) == pytest.approx((4 / 2.2, 44, 20 / 6.3))
+
+
+def test_imc_of_rivera_morari_and_skogestad():
+    """Table II: (2 tau + theta)/(k (2 epsilon + theta)), tau + theta/2, tau theta/(2 tau + theta); tau/(k epsilon)."""
+    data = StepData(2.0, 10.0, 4.0)
+    pid, lag = tune(data, "imc-pid", closed=6.0), tune(data, "imc-pi-lag", closed=8.0)
+    assert (pid.K, pid.Ti, pid.Td) == pytest.approx((24 / (2 * 16), 12, 40 / 24))
+    assert (lag.K, lag.Ti) == pytest.approx((10 / 16, 10))
+    assert tune(data, "imc", "PI").values["closed"] == pytest.approx(6.8) and not tune(data, "imc", "PI").notes
+    assert not lag.notes
+    assert "shorter than 1.7 T0" in tune(data, "imc-pi", closed=5.0).notes[0]
+
+
+def test_poles_by_frequency_and_damping():
+    """1/(s + 1), w0 = 2, zeta = 0.7: Kp = 9/5, Ti = 9/20."""
+    tuning = tune(Process([1], [1, 1]), "damping-pi", w0=2, zeta=0.7)
+    assert (tuning.K, tuning.Ti) == pytest.approx((9 / 5, 9 / 20), rel=1e-13)
+    for process, options in (
+        (Process([3], [2, -1]), {"w0": 4, "zeta": 0.5}),
+        (Process([3], [2, 0]), {"w0": 4, "zeta": 1.2}),
+    ):
+        pi = tune(process, "damping", "PI", **options)
+        closed = np.polyadd(np.polymul([1, 0], process.den), np.polymul(process.num, [pi.K, pi.ki]))
+        w0, zeta = options["w0"], options["zeta"]
+        assert np.allclose(closed / closed[0], [1, 2 * zeta * w0, w0**2], rtol=1e-12)
+    oscillator = Process([3], [2, 0.3, 5])
+    pid = tune(oscillator, "damping", "PID", w0=4, zeta=0.5, alpha=2)
+    closed = np.polyadd(np.polymul([1, 0], oscillator.den), np.polymul(oscillator.num, [pid.kd, pid.K, pid.ki]))
+    assert np.allclose(closed / closed[0], np.polymul([1, 8], [1, 4, 16]), rtol=1e-12)
+
+
+def test_a_phase_margin_by_pi():
+    process = Process([2], [40, 14, 1], 3)
+    m = Loop(process, tune(process, "phase-margin-pi", w=0.08, phase_margin=60)).margins()
+    assert (m.phase, m.gain_crossovers[0].w) == pytest.approx((60, 0.08), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("process", "rule", "options", "says"),
+    [
+        (FOURTH, "phase-margin-pi", {"w": 0.8, "phase_margin": 60}, r"P = 2\.2129, I = -1\.223"),
+        (Process([1], [1, 1]), "damping-pi", {"w0": 0.2, "zeta": 0.7}, "not all of one sign"),
+        (Process([1], [1, 1], 2), "damping-pi", {"w0": 2, "zeta": 0.7}, "dead time"),
+        (Process([1], [1, 2, 1]), "damping-pi", {"w0": 2, "zeta": 0.7}, "use damping-pid"),
+        (Process([1], [1, 1]), "damping-pid", {"w0": 2, "zeta": 0.7}, "use damping-pi"),
+        (Process([1, 1], [1, 2, 1]), "damping-pid", {"w0": 2, "zeta": 0.7}, "without zeros"),
+        (Process([1], [1, 1]), "damping-pi", {"w0": 0, "zeta": 0.7}, "w0 = 0 must be positive"),
+        (Process([1], [1, 1]), "damping-pi", {"w0": 1}, "needs zeta"),
+    ],
+)
+def test_negative_gains_are_refused(process, rule, options, says):
+    from loopbook.tuning import RuleDoesNotApply
+
+    with pytest.raises(RuleDoesNotApply, match=says):
+        tune(process, rule, **options)
+
+
+def test_gains_of_either_sign_can_be_seen():
+    """The published P and I of 1/(s + 1)^4 at 0.8 rad/s with 60 degrees, and of 1/(s + 1) with w0 = 0.2."""
+    from loopbook.tuning import by_damping, by_margin
+
+    assert by_margin.gains(FOURTH, 0.8, 60) == pytest.approx((2.2128613, -1.2230305), abs=5e-8)
+    assert by_damping.gains(Process([1], [1, 1]), 0.2, 0.7) == pytest.approx((-0.72, 0.04, 0))

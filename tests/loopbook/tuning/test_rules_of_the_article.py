@@ -86,7 +86,7 @@ def test_inputs_must_be_positive_and_finite(bad):
     with pytest.raises(DataError, match=r"Ku = .* must be a positive finite number"):
         ultimate(bad, 1.0, "pid")
     with pytest.raises(RuleDoesNotApply, match=r"closed = .* must be a positive number"):
-        tune(StepData(1, 1, 1), "lambda-pi", closed=bad)
+        tune(StepData(1, 1, 0), "lambda-pi", closed=bad)
 
 
 def test_validity_range_is_noted():
