@@ -60,6 +60,7 @@ def results(study: Any) -> dict[str, Any]:
         **study.program.data(),
         "limits_confirmed": study.actuator.confirmed,
         "expected": study.running.expected,
+        "beyond": [offer.data() for offer in study.beyond],
         "enter": [one.data() for one in entered_forms(study)],
         "mind": study.mind,
     }

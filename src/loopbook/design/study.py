@@ -10,6 +10,7 @@ import numpy as np
 
 from loopbook.design import candidates as rules
 from loopbook.design import evaluation, recorded, speed
+from loopbook.design.beyond.offers import offers
 from loopbook.design.decision import conditions, curve, decide
 from loopbook.design.limits import Limits, find_limits, rest_input
 from loopbook.design.model import Model, ModelError, from_fit, from_identified
@@ -23,6 +24,7 @@ from loopbook.records.reading import read_record
 from loopbook.records.summary import line
 
 if TYPE_CHECKING:
+    from loopbook.design.beyond.offer import Offer
     from loopbook.design.placement import Placed
     from loopbook.design.program import SampledProgram
     from loopbook.design.recommendation import Recommendation
@@ -50,7 +52,7 @@ class Study:
     the user, "K=2, T=30". seed: of the drawn models.
     y_low, y_high [y]: the measuring range, for controllers that count in percent of it; None for not given. more:
     further records of the same process, file names separated by semicolons, beside data; they are pooled, the last of
-    three or more is held back.
+    three or more held back. inner: a column between input and output, for a cascade. points: records at other points.
     """
 
     data: str | Path
@@ -73,6 +75,8 @@ class Study:
     y_low: float | None = None
     y_high: float | None = None
     more: str = ""
+    inner: str = ""
+    points: str = ""
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -266,6 +270,11 @@ class Study:
         """The recommended loop and the next best for the aim, five at most."""
         chosen = self.recommendation.chosen
         return [chosen, *[e for e in self.recommendation.admitted if e is not chosen][:4]]
+
+    @cached_property
+    def beyond(self) -> "list[Offer]":
+        """What other structures would bring beside the best PID."""
+        return offers(self)
 
     @property
     def line(self) -> str:
