@@ -35,7 +35,7 @@ def test_the_same_in_rational_numbers_at_a_frequency(name):
         assert simplify(ours - EXACT[K] * (front + 1 / (EXACT[Ti] * at) + lead * D)) == 0
 
 
-@pytest.mark.parametrize("name", BLOCKS)
+@pytest.mark.parametrize("name", ["ideal", "emerson-series", "rockwell-pide-independent", "abb-knx"])
 def test_a_wrong_entry_is_noticed(name):
     """The proof can fail: a gain of another size leaves a difference."""
     block = BLOCKS[name]

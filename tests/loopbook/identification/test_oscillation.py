@@ -37,7 +37,7 @@ def relay(hysteresis: float):
     return lambda y, u, k: 0.0 if k < 20 else 1.0 if k == 20 or y < -hysteresis else -1.0 if y > hysteresis else u
 
 
-@pytest.mark.parametrize(("hysteresis", "load"), [(0.0, 0.0), (0.1, 0.0), (0.1, 0.2), (0.2, 0.0)])
+@pytest.mark.parametrize(("hysteresis", "load"), [(0.0, 0.0), (0.1, 0.2), (0.2, 0.0)])
 def test_the_point_is_that_of_the_process_whatever_the_relay(hysteresis, load):
     swing = find_oscillation(swung(relay(hysteresis), load=load))
     assert swing.kind == "relay"
@@ -48,14 +48,13 @@ def test_the_point_is_that_of_the_process_whatever_the_relay(hysteresis, load):
 
 def test_a_relay_record_gives_its_ultimate_point_and_a_model(tmp_path):
     record = swung(relay(0.1), n=700)
-    found = identify(record)
-    point = ultimate(found.process)
-    assert point.K180 == pytest.approx(POINT.K180, rel=0.03) and point.T180 == pytest.approx(POINT.T180, rel=0.03)
-    assert any("At -180 degrees the model has" in reason for reason in found.reasons)
     file = tmp_path / "relay.csv"
     rows = [f"{t:g},{u:g},{y:.6g}" for t, u, y in zip(record.time, record.u, record.y, strict=True)]
     file.write_text("\n".join(["time,u,y", *rows]), encoding="utf-8")
     study = Study(file)
+    point = ultimate(study.identified.process)
+    assert point.K180 == pytest.approx(POINT.K180, rel=0.03) and point.T180 == pytest.approx(POINT.T180, rel=0.03)
+    assert any("At -180 degrees the model has" in reason for reason in study.identified.reasons)
     told = study.results()["oscillation"]
     assert told["kind"] == "relay" and told["K180"] == pytest.approx(POINT.K180, rel=0.03)
     loop = Loop(PROCESS, study.recommendation.chosen.candidate.pid)

@@ -84,7 +84,7 @@ def test_no_integral_action_is_refused():
 positive = st.floats(1e-3, 1e3)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(positive, positive, st.floats(0.01, 0.22), st.sampled_from(sorted(vendor_forms())))
 def test_the_block_s_loop_is_the_realised_setting(K, Ti, share, form):
     """The typed numbers in the block's equation, at a complex frequency, against what `realised` says."""

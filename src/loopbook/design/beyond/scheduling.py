@@ -14,6 +14,7 @@ from loopbook.design import evaluation
 from loopbook.design.beyond.offer import Offer, best_pid
 from loopbook.design.evaluation import Evaluation
 from loopbook.design.model import Model
+from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
 
 NAME = "gain scheduling"
@@ -82,14 +83,9 @@ def _one_for_all(models: Sequence[Model], loops: Sequence[Sequence[Evaluation]],
         for e in at_point:
             if not (e.stable and e.Ms <= Ms):
                 continue
-            everywhere = []
-            for model in models:
-                one = evaluation.evaluate(model, e.candidate)
-                if not (one.stable and one.Ms <= Ms):
-                    break
-                everywhere.append(one)
-            if len(everywhere) < len(models):
+            if any(_peak(model, e.candidate.pid) > Ms for model in models):
                 continue
+            everywhere = [evaluation.evaluate(model, e.candidate) for model in models]
             cost = max(one.iae_load for one in everywhere)
             if best is None or cost < best[0]:
                 best = cost, everywhere
@@ -102,10 +98,14 @@ def _between(points: Sequence[tuple[float, Model]], own: Sequence[PidStandard]) 
     for (y1, m1), (y2, m2), a, b in zip(points, points[1:], own, own[1:], strict=False):
         for share in BETWEEN:
             model, pid = model_between(m1, m2, share), pid_between(a, b, share)
-            loop = evaluation.Loop(model.process, pid)
-            peak = float(sensitivity_peak(loop.transfer).value) if loop.is_stable else math.inf
-            found.append((peak, y1 + share * (y2 - y1)))
+            found.append((_peak(model, pid), y1 + share * (y2 - y1)))
     return found
+
+
+def _peak(model: Model, pid: PidStandard) -> float:
+    """Ms, infinite for an unstable loop."""
+    loop = Loop(model.process, pid)
+    return float(sensitivity_peak(loop.transfer).value) if loop.is_stable else math.inf
 
 
 def model_between(a: Model, b: Model, share: float) -> Model:
