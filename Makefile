@@ -6,12 +6,13 @@ READY  := $(VENV)/ready
 PYTHON ?= python3
 JOBS   ?=
 jobs   := $(if $(JOBS),-j $(JOBS))
+BROWSER_TESTS := tests/loopbook/tuner_page/test_browser.py $(addprefix tests/notebook_reports/export/,test_browser.py test_page_in_browser.py)
 SOURCES := src tests tools bench notebooks
 
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-identification prove-scaling lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-identification prove-scaling prove-course interop prove-tuner browser lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -73,6 +74,18 @@ core: dist ## the core's tests against the wheel in an environment with NumPy, S
 
 prove-scaling: $(READY) ## 2,000 seeded loops in other units of time, y and u: what comes out otherwise
 	@$(BIN)/python tests/loopbook/scaling/prove_scaling.py 2000
+
+prove-course: $(READY) ## every exercise sheet at 10,000 draws: solved, as by hand, borne by rounded inputs (DRAWS=...)
+	@$(BIN)/python tests/loopbook/course/proof/prove_course.py $(or $(DRAWS),10000) $(SHEETS)
+
+interop: $(VENV)/ready-interop ## exercise sheets in the hands of the real nbgrader and otter
+	@$(BIN)/python tests/loopbook/course/interop/prove_interop.py
+
+prove-tuner: $(READY) ## the tuner's page in V8 against Python: 500 loops, margins, responses, verdicts
+	@$(BIN)/python tests/loopbook/tuner_page/golden/compare.py
+
+browser: $(VENV)/ready-browser ## what pages do in a browser; needs a chromium (apt-get install chromium)
+	@$(BIN)/python -m pytest -q $(BROWSER_TESTS)
 
 bench: $(READY) ## measure the speed against the alternatives, in one run
 	@$(BIN)/python -m bench

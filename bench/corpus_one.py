@@ -48,7 +48,8 @@ def _words(notebook, page, form: str) -> dict[str, object]:
 
     from tools.pages.notebook_words import compare
     from tools.pages.page_words import in_the_text, outside, text_of
-    from tools.pages.pdf_text import PdfText
+
+    from notebook_reports.export.read.pdf_text import PdfText
 
     if form == "html":
         bare = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)

@@ -134,8 +134,12 @@ def survey_holds():
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Tables that tests leave for a reader (``record_property("table", ...)``) end the output."""
+    """Tables that tests leave for a reader (``record_property("table", ...)``) end the output, and files left out."""
     for report in terminalreporter.getreports("passed") + terminalreporter.getreports("failed"):
         for name, text in report.user_properties:
             if name == "table":
                 terminalreporter.write_line(f"\n{text}")
+    for report in terminalreporter.getreports("skipped"):
+        if isinstance(report, pytest.CollectReport) and isinstance(report.longrepr, tuple):
+            why = report.longrepr[2].removeprefix("Skipped: ")
+            terminalreporter.write_line(f"left out: {report.nodeid}: {why}")

@@ -79,6 +79,7 @@ TABLE = {
     "state_feedback": "loopbook.pole_placement.state_feedback:state_feedback",
     "observer": "loopbook.pole_placement.state_feedback:observer",
     "state_regulator": "loopbook.pole_placement.state_feedback:state_regulator",
+    "tuner": "loopbook.tuner_page.turned:tuner",
     # what is known of the process
     "StepData": "loopbook.experiments.data:StepData",
     "IntegratingStepData": "loopbook.experiments.data:IntegratingStepData",

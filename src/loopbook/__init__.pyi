@@ -68,6 +68,7 @@ from loopbook.process.transfer_function import TransferFunction as TransferFunct
 from loopbook.records.reading import read_record as read_csv
 from loopbook.records.record import Record as Record
 from loopbook.response.simulation import simulate as simulate
+from loopbook.tuner_page.turned import tuner as tuner
 from loopbook.tuning.by_name import tune as tune
 from loopbook.tuning.result import Tuning as Tuning
 from loopbook.vendors.entered import enter as enter
@@ -144,6 +145,7 @@ __all__ = [
     "thiran",
     "to_control",
     "tune",
+    "tuner",
     "tuning",
     "vendor_forms",
     "zeros",

@@ -9,7 +9,9 @@ from typing import Any
 import click
 
 from loopbook.code.cli import code as code_command
+from loopbook.course.cli import course as course_command
 from loopbook.design.notebook import design_notebook
+from loopbook.tuner_page.cli import tune_page
 from notebook_reports.cli import main
 from notebook_reports.project.project import Project, UsageError
 
@@ -180,9 +182,11 @@ def _say(wanted: Sequence[Any], given: dict[str, str]) -> None:
         click.echo(name + describe(item.data, time, input, output, interval))
 
 
-for command in (design, code_command):
+for command in (design, code_command, course_command, tune_page):
     setattr(command, "needs_project", False)  # noqa: B010 (it runs in whatever folder the data is; nothing there is run)
 main.add_command(code_command)
+main.add_command(course_command)
+main.add_command(tune_page)
 
 
 if __name__ == "__main__":

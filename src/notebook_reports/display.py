@@ -26,10 +26,10 @@ def number(value: float, digits: int = 5) -> str:
 
     Raises nothing for NaN or infinity: they are shown as such.
 
-    >>> number(-0.000012345), number(8360.0), number(25194.1165)
-    ('−1.2345e−5', '8360', '25194')
+    >>> number(-0.000012345), number(8360.0), number(25194.1165), number(-0.0)
+    ('−1.2345e−5', '8360', '25194', '0')
     """
-    text = f"{float(value):.{digits}g}"
+    text = f"{float(value) or 0.0:.{digits}g}"  # zero has no sign
     if "e" in text:
         mantissa, exponent = text.split("e")
         text = f"{mantissa}e{int(exponent)}"

@@ -7,9 +7,9 @@ import nbformat
 import pytest
 from tools.pages.notebook_words import compare
 from tools.pages.page_words import in_the_text, outside, text_of
-from tools.pages.pdf_text import PdfText
 
 from notebook_reports.export.exporters.choose import export
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.project.project import project_at
 
 pytestmark = pytest.mark.builds

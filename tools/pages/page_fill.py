@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tools.pages.page_words import MARGIN_BOTTOM
-from tools.pages.pdf_text import PdfText
 
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.export.write.arrangement import MARGIN_TOP
 
 BETWEEN = 30.0

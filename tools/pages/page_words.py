@@ -2,8 +2,7 @@
 
 import re
 
-from tools.pages.pdf_text import PdfText, TextRun
-
+from notebook_reports.export.read.pdf_text import PdfText, TextRun
 from notebook_reports.export.write.arrangement import MARGIN_TOP
 
 

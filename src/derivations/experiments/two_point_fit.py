@@ -15,9 +15,20 @@ from derivations.algebra.rational import solved_for
 
 t, t1, t2, T, T0, tau = sp.symbols("t t_1 t_2 T T_0 tau", positive=True)
 p1, p2 = sp.symbols("p_1 p_2", positive=True)
+k, du, x = sp.symbols("k Delta_u x", positive=True)
 
 FRACTIONS = {p1: 1 - sp.exp(-1), p2: 1 - sp.exp(-sp.Rational(1, 3))}
 """What 63.2 % and 28.3 % stand for."""
+
+
+@cache
+def response() -> Expr:
+    """The model's output for t >= T0 after a step du of the input.
+
+    >>> sp.simplify(response().subs(t, rise()) / (k * du))
+    p_1
+    """
+    return k * du * (1 - sp.exp(-(t - T0) / T))
 
 
 @cache
@@ -48,6 +59,22 @@ def fit_283_632() -> dict[sp.Symbol, Expr]:
     (3*t_1/2 - 3*t_2/2, 0)
     """
     return {name: sp.expand(e.subs(FRACTIONS)) for name, e in fit().items()}
+
+
+@cache
+def equal_lags(order: int) -> Expr:
+    """The part of a step that so many equal lags in a row have made after x = t/tau.
+
+    Each lag is driven by the one before, ``dy/dx = before - y``, so that y is the integral of before(v) e^(-(x - v)).
+
+    >>> sp.factor(equal_lags(2) - 1)
+    -(x + 1)*exp(-x)
+    """
+    if order == 0:
+        return sp.Integer(1)
+    v = sp.Symbol("v", positive=True)
+    driven = sp.integrate(sp.expand(equal_lags(order - 1).subs(x, v) * sp.exp(v)), (v, 0, x))
+    return sp.expand(driven * sp.exp(-x))
 
 
 @cache

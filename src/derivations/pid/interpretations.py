@@ -16,10 +16,15 @@ distance, x = symbols("h x", real=True)
 
 
 @cache
+def pi_on_error() -> Expr:
+    """The PI law in terms of the error, b = 1: K e + K / T_i times the integral of e."""
+    return pi_law().subs(b, 1).subs(ysp(t), e(t) + y(t))
+
+
+@cache
 def pi_step() -> Expr:
     """Change of the PI output at time t after a step De of the error at t = 0: K (1 + t / T_i) De."""
-    ordinary = pi_law().subs(b, 1).subs(ysp(t), e(t) + y(t))
-    return ordinary.replace(lambda part: part.func == Function("e"), lambda part: step).doit().factor()
+    return pi_on_error().replace(lambda part: part.func == Function("e"), lambda part: step).doit().factor()
 
 
 @cache

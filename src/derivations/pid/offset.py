@@ -53,10 +53,14 @@ def rest_drag() -> Expr:
     return factored(positive)
 
 
+def weighted_output(setpoint: Expr = ysp) -> Expr:
+    """u = K (b y_sp - y) + R (y_sp - y): the weight stands in P only."""
+    return K * (b * setpoint - y) + integral_action * (setpoint - y)
+
+
 def _loop(setpoint: Expr, disturbance: Expr) -> Expr:
-    """y of the loop y = G (u + d), u = K (b y_sp - y) + R (y_sp - y)."""
-    u = K * (b * setpoint - y) + integral_action * (setpoint - y)
-    return solved_for(y, y, process * (u + disturbance))
+    """y of the loop y = G (u + d) with `weighted_output`."""
+    return solved_for(y, y, process * (weighted_output(setpoint) + disturbance))
 
 
 @cache

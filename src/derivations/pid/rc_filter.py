@@ -5,7 +5,7 @@ Source: pid-report, section 4.1 (circuit of figure 4.4) and section 5.1 (16 time
 
 from functools import cache
 
-from sympy import Eq, Expr, Function, I, Rational, Symbol, cancel, expand, pi, simplify, sqrt, symbols
+from sympy import Eq, Expr, Function, I, Integer, Rational, Symbol, cancel, expand, pi, simplify, sqrt, symbols
 
 from derivations.algebra.differences import h, t
 from derivations.algebra.equality import both_sides, equality
@@ -16,15 +16,29 @@ V_in, V_out, current, V_R = (Function(name) for name in ("V_in", "V_out", "I", "
 
 
 @cache
-def circuit_law() -> Eq:
-    """R C V_out' = V_in - V_out, by eliminating the current and the resistor's voltage.
+def capacitor() -> Eq:
+    """I = C V_out': the current charges the capacitor."""
+    return equality(current(t), C * V_out(t).diff(t))
 
-    The three laws: capacitor I = C V_out', Ohm V_R = R I, Kirchhoff V_in - V_R - V_out = 0.
-    """
+
+@cache
+def resistor() -> Eq:
+    """V_R = R I, Ohm's law."""
+    return equality(V_R(t), R * current(t))
+
+
+@cache
+def around() -> Eq:
+    """V_in - V_R - V_out = 0, Kirchhoff's voltage law."""
+    return equality(V_in(t) - V_R(t) - V_out(t), Integer(0))
+
+
+@cache
+def circuit_law() -> Eq:
+    """R C V_out' = V_in - V_out: the three laws with the current and the resistor's voltage eliminated."""
     slope = V_out(t).diff(t)
-    around = V_in(t) - V_R(t) - V_out(t)
-    without_current = around.subs(V_R(t), R * current(t)).subs(current(t), C * slope)
-    return equality(R * C * slope, expand(R * C * solved_for(slope, without_current)))
+    left = around().lhs.subs(*resistor().args).subs(*capacitor().args)
+    return equality(R * C * slope, expand(R * C * solved_for(slope, left)))
 
 
 @cache

@@ -30,10 +30,15 @@ def pole() -> Expr:
 
 
 @cache
+def settled() -> Expr:
+    """I where its recursion comes to rest, for a constant error and a constant P + D = r."""
+    return solved_for(at("I"), at("I"), recursion()).expand()
+
+
+@cache
 def bump() -> Expr:
     """v - u_out that tracking settles at for a constant error: K T_t / T_i e. Zero only for e = 0."""
-    steady = solved_for(at("I"), at("I"), recursion())
-    return factor(steady + rest - imposed)
+    return factor(settled() + rest - imposed)
 
 
 @cache

@@ -23,11 +23,16 @@ NEW = {s: Symbol(f"{s.name}_new", **_TYPES.get(n, {"positive": True})) for n, s 
 
 
 @cache
+def same_p_plus_i() -> Eq:
+    """What eq. 4.10 is solved from: P + I with the new K and b is P + I with the old."""
+    proportional = code.separate().assigned(code.P)
+    return equality(proportional.subs(NEW) + I_new, proportional.subs(OLD) + I_old)
+
+
+@cache
 def keep_p_plus_i() -> Eq:
     """Eq. 4.10: the I_new for which P + I is the same with the old and the new K and b."""
-    proportional = next(a.value for a in code.separate().before if a.target == code.P)
-    old, new = proportional.subs(OLD) + I_old, proportional.subs(NEW) + I_new
-    return equality(I_new, collect(solved_for(I_new, old, new).expand(), [OLD[K], NEW[K]]))
+    return equality(I_new, collect(solved_for(I_new, *same_p_plus_i().args).expand(), [OLD[K], NEW[K]]))
 
 
 def _changed(name: str, expr: Expr) -> Expr:
@@ -120,7 +125,7 @@ def jump_after(figure: str) -> Expr:
 @cache
 def late_correction() -> Expr:
     """Extra jump where eq. 4.10 uses the measurement of the sample before, as the code figures do: the step of P."""
-    share = next(a.value for a in code.separate().before if a.target == code.P)
+    share = code.separate().assigned(code.P)
     change = _changed("K", share) - share
     return factored(change - change.subs(code.y, code.y_old))
 

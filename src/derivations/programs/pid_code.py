@@ -65,6 +65,10 @@ class Program:
     def gain_values(self) -> dict[Symbol, Expr]:
         return {a.target: a.value for a in self.gains}
 
+    def assigned(self, target: Symbol) -> Expr:
+        """What is assigned to a variable in the pass. Raises StopIteration where it is never assigned."""
+        return next(a.value for a in self.before + self.after if a.target == target)
+
     def states(self) -> tuple[Symbol, ...]:
         """What one pass needs from the one before: variables read before they are assigned."""
         known = {*INPUTS, *self.gain_values()}
@@ -247,9 +251,7 @@ def merged_state() -> Program:
 def state_gain() -> tuple[Expr, Expr]:
     """The update of x by itself and y (eq. 4.16) and the gain p4 in it (eq. 4.17)."""
     program = merged_state()
-    (update,) = (a.value for a in program.after if a.target == x)
-    (slope,) = (a.value for a in program.before if a.target == Df)
-    combined = expand(update.xreplace({Df: slope}))
+    combined = expand(program.assigned(x).xreplace({Df: program.assigned(Df)}))
     gain = factor(combined.coeff(y).subs(program.gain_values()))
     return Add(combined.coeff(x) * x, p4 * y), gain
 
@@ -257,8 +259,8 @@ def state_gain() -> tuple[Expr, Expr]:
 def _shortest(slope_input: Expr) -> tuple[list[Assignment], Expr, Expr, Assignment]:
     """Output and state update of figure 4.13 for a derivative that acts on ``slope_input`` instead of y."""
     program = merged_state()
-    (slope,) = (a.value for a in program.before if a.target == Df)
-    nominal = expand((P + I + Df).subs({P: _common()["P"].value, Df: slope.subs(y, slope_input)}))
+    slope = program.assigned(Df).subs(y, slope_input)
+    nominal = expand((P + I + Df).subs({P: _common()["P"].value, Df: slope}))
     update, gain = state_gain()
     values = program.gain_values()
     gain_sp, gain_y = collect(nominal.coeff(ysp), K), -nominal.coeff(y)
@@ -294,8 +296,7 @@ def weighted() -> Program:
 def shortest() -> Program:
     """Shorter than figure 4.13: everything but ``p2*y`` is known before y is read, if the set-point is."""
     program = minimal()
-    (nominal,) = (a.value for a in program.before if a.target == v)
-    needs_y, known = split(nominal, y)
+    needs_y, known = split(program.assigned(v), y)
     before = (Assignment(v, w + needs_y), _common()["u"])
     return Program("shortest", program.gains, before, (*program.after, Assignment(w, known)))
 

@@ -83,8 +83,8 @@ def begin_again() -> tuple[Assign, ...]:
 
 def step(compensated: bool) -> Operation:
     value, rest = law()
-    update = next(a.value for a in code.weighted().after if a.target == x)
-    tracked = next(a.value for a in code.weighted().after if a.target == I)
+    update = code.weighted().assigned(x)
+    tracked = code.weighted().assigned(I)
     used = (
         If(started, (Assign(x_now, x),), (Assign(x_now, rest.value, rest.equation),)),
         Assign(r, value.value.xreplace({x: x_now}), value.equation),

@@ -20,11 +20,6 @@ u0 = Symbol("u_0", real=True)
 u_ff = Symbol("feedforward", real=True)
 
 
-def _of(target: Symbol) -> Expr:
-    program = code.weighted()
-    return next(a.value for a in program.before + program.after if a.target == target)
-
-
 @cache
 def law() -> Expr:
     """v with the feedforward signal added.
@@ -32,7 +27,7 @@ def law() -> Expr:
     >>> law()
     I + feedforward + p_1*y_sp - p_2*y + x
     """
-    return _of(code.v) + u_ff
+    return code.weighted().assigned(code.v) + u_ff
 
 
 @cache
@@ -58,7 +53,7 @@ def derivative_state() -> Expr:
     >>> derivative_state()
     -p_4*(-c*y_sp + y)/(p_3 - 1)
     """
-    return factor(solved_for(code.x, _of(code.x), code.x))
+    return factor(solved_for(code.x, code.weighted().assigned(code.x), code.x))
 
 
 @cache

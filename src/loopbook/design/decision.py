@@ -6,9 +6,11 @@ from typing import Any
 
 from loopbook.design import recommendation, selection, speed
 from loopbook.design.evaluation import Evaluation, Robustness
+from loopbook.design.model import ModelError
 from loopbook.identification.intervals import quantum
 from loopbook.records.record import RecordError
 
+FASTEST_PEAK = 2.5  # Ms of a loop whose speed the user chose: beyond, it is refused
 SLOWER = (0.75, 0.5, 0.25, 0.0)  # speeds that are tried where no rule gives what can be run
 
 
@@ -72,6 +74,12 @@ def decide(study: Any) -> tuple[recommendation.Recommendation, selection.Selecte
         chosen, found = selection.least_shaking([e for e in tried if e.stable], study.conditions), first or found
     if chosen is None or found is None:
         raise RecordError(_none(study, [e for e in tried if e.stable]))
+    if study.knob and not chosen.running.Ms <= FASTEST_PEAK:
+        raise ModelError(
+            f"a closed loop of {study.knob.closed:.3g} s is faster than the process allows: with "
+            f"{chosen.chosen.candidate.name} Ms would be {chosen.running.Ms:.2f} (2 is the usual limit); "
+            f"the fast end of the knob, --speed 1, is {speed.at_speed(study.model, 1.0).closed:.3g} s"
+        )
     reasons = [
         r for r in found.reasons if chosen.chosen.candidate.name == found.chosen.candidate.name or "Next" not in r
     ]
@@ -94,6 +102,11 @@ def _none(study: Any, stable: list[Evaluation]) -> str:
     if not stable:
         return "no regulator can be recommended: no rule gives a stable loop with this process"
     against = selection.objection(stable[0], *selection.build(stable[0], study.conditions), study.conditions, math.inf)
+    if study.knob:
+        return (
+            f"no regulator can be recommended: for a closed loop of {study.knob.closed:.3g} s "
+            f"{against or 'too much is asked'}; ask for a slower one (--closed-loop, --speed)"
+        )
     return (
         f"no regulator can be recommended: with {stable[0].candidate.name} {against or 'too much is asked'}; "
         "the record does not determine the process well enough, or the measurement is too noisy"

@@ -70,18 +70,18 @@ def sheet(study: Study) -> display.Figure:
             drawn, "The step response of the given model.", "A curve over time that starts after the dead time."
         )
     log, fit = study.identified.record, study.identified.chosen
-    fig, axes = plt.subplots(2, 1, figsize=(6.3, 2.1), sharex=True, layout="constrained", height_ratios=[3, 1])
+    fig, axes = plt.subplots(2, 1, figsize=(6.3, 1.9), sharex=True, layout="constrained", height_ratios=[3, 1])
     shown, out = log.used, ~log.used
     axes[0].plot(log.time[shown], log.y[shown], ".", color="0.6", markersize=2.5, label="measured")
     if out.any():
         axes[0].plot(log.time[out], log.y[out], "x", color=COLOURS[1], markersize=4, label="left out")
     axes[0].plot(log.time[shown], (log.y - fit.residuals)[shown], color=COLOURS[0], linewidth=1.2, label="model")
-    axes[0].set_ylabel(_label(log.output_name, log.output_unit), fontsize="small")
     axes[0].legend(fontsize="x-small", ncols=3)
     axes[1].step(log.time, log.u, where="post", color=COLOURS[2])
-    axes[1].set_ylabel(_label(log.input_name, log.input_unit), fontsize="small")
     axes[1].set_xlabel("time $t$ [s]", fontsize="small")
-    for axis in axes:
+    names = (_label(log.output_name, log.output_unit), _label(log.input_name, log.input_unit))
+    for axis, name in zip(axes, names, strict=True):
+        axis.set_title(name, loc="left", fontsize="small", pad=3)
         axis.grid(True, linewidth=0.4, alpha=0.5)
         axis.tick_params(labelsize="small")
     return figure(fig, "The record and the model fitted to it.", "Two panels over time: output with model, and input.")

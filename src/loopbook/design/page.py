@@ -11,7 +11,7 @@ from loopbook.design.words import Units, as_plain_text
 from notebook_reports.display import Table, number
 
 LEFT = ["left", "left"]
-MOST_CAUTIONS = 3
+MOST_CAUTIONS = 2
 
 
 def recorded(study: Study) -> Table:

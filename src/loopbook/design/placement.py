@@ -10,6 +10,7 @@ from loopbook.design.model import Model
 from loopbook.design.speed import time_scale
 from loopbook.loop.margins import Margins
 from loopbook.loop.sampled import SampledLoop
+from loopbook.loop.transfer import LoopError
 from loopbook.pole_placement.numeric import place_numerically
 from loopbook.process.sampled import sample
 from notebook_reports.display import Table, number
@@ -53,13 +54,17 @@ def placed(model: Model, closed: float, h: float) -> Placed:
     loop = SampledLoop(model.process, regulator)
     if not loop.is_stable:
         return Placed(closed, q, regulator, None, regulator.is_stable, reason="unstable by rounding")
+    try:
+        margins = loop.margins()
+    except LoopError as error:
+        return Placed(closed, q, regulator, None, regulator.is_stable, reason=f"its margins are not known: {error}")
     steps = math.ceil((20 * closed + 5 * model.delay) / h)
     response, load = loop.step("reference", steps), loop.step("load", steps)
     outside = np.flatnonzero(abs(response.y - 1) > 0.02)
     settling = float(response.t[min(outside[-1] + 1, steps)]) if outside.size else 0.0
     iae = float(np.sum(abs(load.y)) * h)
     peak = float(abs(response.u).max())
-    return Placed(closed, q, regulator, loop.margins(), regulator.is_stable, settling, peak, iae)
+    return Placed(closed, q, regulator, margins, regulator.is_stable, settling, peak, iae)
 
 
 def placements(model: Model, time_constant: float, h: float = 0.0) -> list[Placed]:

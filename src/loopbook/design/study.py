@@ -285,8 +285,7 @@ class Study:
     @property
     def mind(self) -> list[str]:
         """What a user has to know, one sentence each."""
-        warnings = self.identified.warnings if self.identified else ()
-        return [*self.actuator.notes, *warnings, *self.recommendation.chosen.candidate.notes]
+        return [*self.cautions, *self.recommendation.chosen.candidate.notes]
 
     @property
     def cautions(self) -> list[str]:

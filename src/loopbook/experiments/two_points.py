@@ -45,3 +45,20 @@ def fit(k: float, t1: float, t2: float) -> StepData:
             f"two points: the dead time comes out as {T0:.4g} s: the response is faster at first than a lag"
         )
     return StepData(k, T, max(T0, 0.0))
+
+
+def equal_lags_instants(order: int, tau: float) -> tuple[float, float]:
+    """The instants t1 (63.2 %) and t2 (28.3 %) [s] of ``order`` equal lags of tau [s] in a row.
+
+    Their step response is the distribution function of Gamma with the shape ``order``; its inverse is the instant.
+    Raises DataError for an order below 1 and a tau that is not positive.
+
+    >>> [round(t, 4) for t in equal_lags_instants(2, 2.0)]
+    [4.2914, 2.102]
+    """
+    from scipy.special import gammaincinv
+
+    if order < 1 or not tau > 0:
+        raise DataError(f"lags in a row: order = {order!r} must be at least 1, tau = {tau!r} s positive")
+    t1, t2 = (tau * float(gammaincinv(order, part)) for part in PARTS)
+    return t1, t2

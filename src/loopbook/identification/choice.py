@@ -20,6 +20,7 @@ from loopbook.records.steps import Steps, find_steps
 
 CLEARLY_BETTER = 10.0  # Akaike's criterion: a difference beyond 10 leaves the other model no support
 POOREST_FIT = 40.0  # percent
+HALF = 0.5  # of the samples at a limit of the sensor: where nothing else can be seen, that is why
 GOOD_FIT, PATTERN = 97.0, 0.5  # percent; correlation of residuals that shows a pattern
 
 
@@ -78,7 +79,11 @@ def _identified(record: Record, fixed: Mapping[str, float] | None) -> Identified
     _refuse(diagnosis.saturated(record))
     if recognised(record):
         return _closed(record, fixed)
-    steps = find_steps(record)
+    try:
+        steps = find_steps(record)
+    except RecordError:
+        _refuse(diagnosis.saturated(record, HALF))
+        raise
     _, fits = fit_all(record, steps, fixed=fixed)
     if not fits:
         raise RecordError(f"no model has the parameters {', '.join(fixed or {})} together; fix K, T (or T1, T2) and L")
@@ -98,26 +103,33 @@ def _identified(record: Record, fixed: Mapping[str, float] | None) -> Identified
         criteria = criteria_of(fits, n)
         usable.append(strange.structure)
     if directions is None:
-        _refuse(diagnosis.asymmetric(record, steps, best) if best.fit < GOOD_FIT else "")
+        poor = best.fit < GOOD_FIT and not fixed
+        _refuse(diagnosis.asymmetric(record, steps, best) if poor else "")
         _refuse(diagnosis.drift_explains(record, best))
-        _refuse(diagnosis.below_noise(best, steps))
+        lost = diagnosis.below_noise(best, steps)
+        _refuse(lost and (diagnosis.saturated(record, HALF) or lost))
+        _refuse(diagnosis.has_zero(record, steps, best) if poor and strange is None else "")
+        _refuse(diagnosis.disturbed(best) if poor else "")
         if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
             _refuse(diagnosis.below_sample(record, best) if best.fit >= POOREST_FIT else "")
             _refuse(diagnosis.not_at_rest(record, steps))
+            _refuse(diagnosis.disturbed(best, GOOD_FIT))
             _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
             raise RecordError(
                 f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of "
                 "it; was something else disturbing the process, or is the response not that of a step?"
             )
         chosen = _simplest(fits, criteria, usable)
+        _refuse(diagnosis.drift_explains(record, fits[chosen]))
     else:
         chosen = FIRST_ORDER
         fits[chosen] = directions.worse
         criteria = criteria_of(fits, n)
     fit = fits[chosen]
     _refuse(diagnosis.below_sample(record, fit))
+    _refuse(diagnosis.extrapolated(record, steps, fit))
     reasons = _reasons(fits, criteria, chosen, usable) if directions is None else _both(directions)
-    warnings = tuple(_warnings(fit, fits, steps))
+    warnings = (*record.faults, *_warnings(fit, fits, steps))
     return Identified(record, steps, fits, criteria, fit, tuple(reasons), warnings, directions)
 
 

@@ -6,23 +6,27 @@ Each function looks for one reason and returns the sentence, or "" where it is n
 import numpy as np
 
 from loopbook.identification.fit import Fit
-from loopbook.identification.least_squares import FitProblem, drifts
-from loopbook.identification.models import UNDERDAMPED
+from loopbook.identification.least_squares import FitProblem
+from loopbook.identification.models import FIRST_ORDER, UNDERDAMPED
+from loopbook.identification.normal_equations import linear
 from loopbook.records.record import Record
-from loopbook.records.steps import Steps
+from loopbook.records.steps import Steps, drifts
 
 BELOW_NOISE = 3.0  # peak to peak of the input's contribution, in standard deviations of the noise
 MOST_CUT = 0.9  # of the samples
-MOST_BESIDE_DRIFT = 0.7  # of the output's spread: a line that leaves more explains nothing
 BEYOND_DRIFT = 15.0  # Akaike's criterion: what the input has to bring beyond a straight line
 CONTINUAL = 0.4  # of the samples: an input that changes as often may be a regulator's
 FOLLOWS = 0.9  # of the input's own news explained by the measurement
+BEYOND_PARABOLA = 2.0  # the same beyond a parabola in time
+AS_WELL = 1.2  # rms residual of that parabola, against that of the model
+LEAST_DISTURBED, DISTURBED = 80.0, 0.9  # percent explained; correlation of the residuals
+LONGEST_LAGS = 5.0  # times the record after its first step
 CLEARLY_BETTER = 0.7  # rms residual of another kind of model, relative
 
 
-def saturated(record: Record) -> str:
-    """The sensor stood at its limit for most of the record."""
-    if record.cut <= MOST_CUT:
+def saturated(record: Record, most: float = MOST_CUT) -> str:
+    """The sensor stood at its limit for more than that share of the record."""
+    if record.cut <= most:
         return ""
     return (
         f"the measurement is saturated: for {100 * record.cut:.0f} % of the samples it is at a limit of the sensor; "
@@ -42,20 +46,54 @@ def below_noise(fit: Fit, steps: Steps) -> str:
 
 
 def drift_explains(record: Record, fit: Fit) -> str:
-    """A straight line through the whole record does as well as the input."""
+    """A straight line through the whole record, or a parabola, does as well as the input."""
     used = record.used
     t, y = record.time[used], record.y[used]
-    columns = np.column_stack([np.ones(len(t)), t])
-    left = y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0]
-    alone = float(np.sqrt(np.mean(left**2)))
-    if alone > MOST_BESIDE_DRIFT * float(np.std(y)):
+    left = [_beside_polynomial(t, y, degree) for degree in (1, 2)]
+    alone, bent = left
+    if bent > CLEARLY_BETTER * float(np.std(y)):
         return ""
-    worth = len(t) * (1 - fit.correlation) / (1 + fit.correlation)
-    if alone > 1e-9 * float(np.ptp(y)) and worth * np.log(alone**2 / max(fit.rmse, 1e-300) ** 2) > BEYOND_DRIFT:
-        return ""
+    if alone > 1e-9 * float(np.ptp(y)):
+        worth = len(t) * (1 - fit.correlation) / (1 + fit.correlation)
+        brings = worth * np.log(alone**2 / max(fit.rmse, 1e-300) ** 2)
+        beyond_parabola = worth * np.log(bent**2 / max(fit.rmse, 1e-300) ** 2)
+        as_well = beyond_parabola < BEYOND_PARABOLA and bent < AS_WELL * fit.rmse
+        if not as_well and (brings > BEYOND_DRIFT or fit.rmse < CLEARLY_BETTER * alone):
+            return ""
     return (
         "a drift explains the response as well as the input does: the output was not at rest before the step, or the "
         "record does not show it there; record the process at rest, then the step"
+    )
+
+
+def _beside_polynomial(t: np.ndarray, y: np.ndarray, degree: int) -> float:
+    """Root mean square of what a polynomial in time leaves."""
+    x = 2 * (t - t[0]) / (t[-1] - t[0]) - 1
+    columns = np.polynomial.legendre.legvander(x, degree)
+    return float(np.sqrt(np.mean((y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0]) ** 2)))
+
+
+def disturbed(fit: Fit, least: float = LEAST_DISTURBED) -> str:
+    """What the input leaves unexplained is large and no noise: its samples follow each other.
+
+    least: percent of the response that a fit has to explain.
+    """
+    if fit.fit >= least or fit.correlation < DISTURBED:
+        return ""
+    return (
+        f"something else moved the output: the best model ({fit.structure.name}) leaves {100 - fit.fit:.0f} % of it, "
+        "and what it leaves is no noise, its samples follow each other; record the step while nothing else happens"
+    )
+
+
+def extrapolated(record: Record, steps: Steps, fit: Fit) -> str:
+    """The lags are so long against the record that gain and lags are a guess."""
+    length = float(record.time[-1] - steps.list[0][0])
+    if fit.structure.integrating or sum(fit.lags) < LONGEST_LAGS * length:
+        return ""
+    return (
+        f"the model is not determined: its time constants ({sum(fit.lags):.3g} s) are far longer than what was "
+        f"recorded after the first step ({length:.3g} s); record longer"
     )
 
 
@@ -97,6 +135,35 @@ def rings(fit: Fit) -> str:
     return (
         f"the process is underdamped: its response rings with a period of {2 * np.pi * T / np.sqrt(1 - zeta**2):.3g} s "
         f"and a damping ratio of {zeta:.2f}; time constants that are given do not describe it: leave them out"
+    )
+
+
+def has_zero(record: Record, steps: Steps, fit: Fit) -> str:
+    """Two lags with gains of their own, of opposite sign, fit clearly better: the response turns back."""
+    if steps.course or (fit.correlation < 0.5 and fit.fit > 90):
+        return ""
+    problem = FitProblem(record, FIRST_ORDER, steps, "rest", {})
+    h, length = record.sampling, problem.length
+    lags = np.geomspace(max(h / 2, length / 300), length, 14)
+    best = (np.inf, 0.0, 0.0)
+    for delay in dict.fromkeys((0.0, h, fit.delay)):
+        answers = [FIRST_ORDER.response(problem.time, steps.list, (T,), delay) for T in lags]
+        for i, fast in enumerate(answers):
+            for slow in answers[i + 1 :]:
+                columns = np.column_stack([problem.columns((1.0,), delay), fast, slow])
+                found = linear(columns, problem.y)
+                rms = float(np.sqrt(np.mean((problem.y - columns @ found) ** 2)))
+                best = min(best, (rms, float(found[-2]), float(found[-1])))
+    rms, fast_gain, slow_gain = best
+    if rms > CLEARLY_BETTER * fit.rmse or fast_gain * slow_gain >= 0:
+        return ""
+    if abs(fast_gain) > abs(slow_gain) or fast_gain * (fast_gain + slow_gain) > 0:
+        how = "the response goes beyond where it settles and comes back without ringing"
+    else:
+        how = "the response first goes the wrong way (an inverse response)"
+    return (
+        f"{how}: the process has a zero, and the rules here are for processes of lags; a fast and a slow path work "
+        "against each other, so tune by hand and slowly, or act on one of them alone"
     )
 
 

@@ -18,10 +18,11 @@ from loopbook.identification.fit import Fit, Parameter
 from loopbook.identification.models import RINGS, STRUCTURES, Structure
 from loopbook.identification.normal_equations import linear
 from loopbook.records.record import Record
-from loopbook.records.steps import Steps, find_steps
+from loopbook.records.steps import Steps, drifts, find_steps
 
 CONFIDENCE = 0.95
 NO_DELAY = 0.5  # of a sampling interval: a shorter dead time is none
+ALIKE = 0.9  # ratio of two lags from which on the response hardly tells which is which
 NUISANCES = ("rest", "drift", "start")
 
 
@@ -215,20 +216,6 @@ def fit_structure(
     return described(problem, lags, delay, fixed)
 
 
-def drifts(record: Record, steps: Steps) -> bool:
-    """Does the output drift before the first step, beyond four standard errors of the slope?"""
-    used = record.used[: steps.before]
-    n = int(used.sum())
-    if n < 10:
-        return False
-    t, y = record.time[: steps.before][used], record.y[: steps.before][used]
-    t = t - t.mean()
-    slope = float(t @ (y - y.mean()) / (t @ t))
-    sigma = max(float(np.std(y - y.mean() - slope * t)) * np.sqrt(n / (n - 2)), steps.noise)
-    spans = np.ptp(record.time), np.ptp(record.y[record.used])
-    return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]
-
-
 def described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
     """Everything that is said of a fit, from its optimum."""
     from scipy.special import stdtrit
@@ -250,11 +237,20 @@ def described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed:
     )
     known = [i for i, name in enumerate(names) if {name, *_SAME.get(name, ())} & set(fixed)]
     free = [i for i in range(len(values)) if i not in known]
+    twins = (
+        [1, 2] if structure.common and len(lags) == 2 and lags[1] > ALIKE * lags[0] and not {1, 2} & set(known) else []
+    )
+    if twins:  # two lags that are one in the response: they move together, and one of them stands for both
+        jacobian[:, 1] += jacobian[:, 2]
+        free.remove(2)
     found, freedom = intervals.covariance(
         np.column_stack([jacobian[:, free], problem.columns(lags, delay)]), residuals, problem.y
     )
     covariance = np.zeros((len(values), len(values)))
     covariance[np.ix_(free, free)] = found[: len(free), : len(free)]
+    if twins:
+        covariance[2, :] = covariance[1, :]
+        covariance[:, 2] = covariance[:, 1]
     spread = np.sqrt(np.maximum(np.diag(covariance), 0))
     quantile = float(stdtrit(freedom, 0.5 + CONFIDENCE / 2))  # of Student's distribution
     parameters = tuple(

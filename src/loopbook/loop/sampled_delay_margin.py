@@ -152,8 +152,19 @@ class _Circle:
             by_a = moved[0].sum(axis=1) + moved[1].sum(axis=1) + moved[2][:, 0] - by_f
         return least, most, angle, np.minimum(turned + self.lead * da, np.pi), by_a, by_f
 
-    def solve(self, a: float, f: float, whole: int) -> tuple[float, float] | None:
-        """(a, f) with M + z^-whole N = 0 near by, by Newton's method on log(-z^-whole N/M)."""
+    def solve(self, a: float, f: float, whole: int) -> tuple[float, float, int] | None:
+        """(a, f, whole) with M + z^-whole N = 0 near by; a fraction past the end is one of the next whole dead time."""
+        found = self._newton(a, f, whole)
+        if found and not -JUST <= found[1] <= 1 + JUST:
+            more = math.floor(found[1])
+            whole += more
+            found = self._newton(found[0], found[1] - more, whole) if whole >= 0 else None
+        if not found or not (0 < found[0] <= math.pi * (1 + 1e-12) and -1e-13 <= found[1] <= 1 + 1e-13):
+            return None
+        return found[0], min(max(found[1], 0.0), 1.0), whole
+
+    def _newton(self, a: float, f: float, whole: int) -> tuple[float, float] | None:
+        """(a, f) by Newton's method on log(-z^-whole N/M)."""
         for _ in range(NEWTON):
             back = cmath.exp(-1j * a)
             c, slope = (row[0] for row in self.numerator.at(np.array([f])))
@@ -178,8 +189,7 @@ class _Circle:
                 return None
             if abs(change) <= 1e-15 * a and abs(also) <= 1e-15:
                 break
-        inside = 0 < a <= math.pi * (1 + 1e-12) and -1e-13 <= f <= 1 + 1e-13 and abs(wanted) < 1e-9
-        return (a, min(max(f, 0.0), 1.0)) if inside else None
+        return (a, f) if abs(wanted) < 1e-9 else None
 
 
 def delay_margin(process: Process, regulator: Rst, holds: Callable[[float], bool]) -> float:
@@ -232,11 +242,15 @@ def _first_root(circle: _Circle, has: float, best: float) -> float:
         if not away.any():  # nothing is left but the solution itself
             break
         if round_ % NEWTON_EVERY == 0:
-            next_ = int(np.argmin(np.where(away.any(axis=0), first, np.inf)))
-            a, f = _middle(boxes)[:, next_].tolist()
-            found = circle.solve(a, f, int(whole[next_]))
-            if found and has * (1 + BESIDE) + BESIDE < whole[next_] + found[1] < best:
-                best, at = float(whole[next_] + found[1]), found
+            waiting = np.where(away.any(axis=0), first, np.inf)
+            next_ = int(np.argmin(waiting))
+            later = int(np.argmin(np.where(whole > whole[next_], waiting, np.inf)))
+            for i in dict.fromkeys((next_, later)):  # the first may end just short of a root: any bound ends the search
+                a, f = _middle(boxes)[:, i].tolist()
+                found = circle.solve(a, f, int(whole[i]))
+                if found and has * (1 + BESIDE) + BESIDE < found[2] + found[1] < best:
+                    best, at = float(found[2] + found[1]), found[:2]
+                    break
         boxes = _halved(boxes, by_f >= by_a + whole * _half(boxes)[0])[:, np.tile(first < best, 2)]
     return best
 

@@ -222,8 +222,10 @@ def _rightmost(loop: LoopTransfer, starts: Iterable[complex]) -> float:
     found = math.inf
     for s in starts:
         for _ in range(40):
+            if loop.delay * s.real <= -FASTEST:
+                break
             (n, dn), (d, dd) = horner.with_slope(loop.num, s), horner.with_slope(loop.den, s)
-            turn = cmath.exp(-loop.delay * s) if loop.delay * s.real > -FASTEST else math.inf
+            turn = cmath.exp(-loop.delay * s)
             slope = dd + (dn - loop.delay * n) * turn
             if not slope or not cmath.isfinite(slope):
                 break

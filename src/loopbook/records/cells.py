@@ -15,6 +15,8 @@ from loopbook.records.states import state
 
 UTF16 = (b"\xff\xfe", b"\xfe\xff")
 DECIMAL = re.compile(r"[+-]?(?:\d+|\d{1,3}(?:[.,]\d{3})+)?([.,])\d+(?:[eE][+-]?\d+)?")
+COMMENT = ("#", "%", "//")
+WITH_UNIT = re.compile(r"([+-]?[\d.,]+(?:[eE][+-]?\d+)?)\s*([%‰]|[°µ]?[A-Za-z][A-Za-z/%²³]{0,7})")
 THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
 
 
@@ -75,14 +77,16 @@ def cells_of(text: str, time_units: set[str]) -> Cells:
     there are no columns.
     """
     every = [line for line in text.splitlines() if line.strip()]
-    is_comment = [line.lstrip().startswith(("#", "%")) for line in every]
+    is_comment = [line.lstrip().startswith(COMMENT) for line in every]
     lines = [line for line, aside in zip(every, is_comment, strict=True) if not aside]
     starts = next((i for i, line in enumerate(every) if line.lstrip(' "+-.')[:1].isdigit()), len(every))
-    comments = [every[i].lstrip().lstrip("#% ") for i in range(starts) if is_comment[i]]
+    comments = [every[i].lstrip().lstrip("#%/ ") for i in range(starts) if is_comment[i]]
     if not lines:
         raise RecordError("the file is empty")
     delimiter = _delimiter(lines[:200])
-    return table(split(lines, delimiter), delimiter, time_units, split(comments[-1:], delimiter))
+    heads = split(comments, delimiter)
+    widest = max(map(len, heads), default=0)
+    return table(split(lines, delimiter), delimiter, time_units, [h for h in heads if len(h) == widest][-1:])
 
 
 def split(lines: list[str], delimiter: str) -> list[list[str]]:
@@ -112,7 +116,20 @@ def table(rows: list[list[str]], delimiter: str, time_units: set[str], comment: 
     if first > 1 and any(unit.lower() in time_units for unit in bare):
         above = _fitted(rows[first - 2], kept, width)
         head = [f"{name} [{unit}]" if unit else name for name, unit in zip(above, bare, strict=True)]
+    head, kept = _units_in_cells(head, kept)
     return Cells(head, kept, delimiter, _decimal(kept[:200]), notes)
+
+
+def _units_in_cells(head: list[str], rows: list[list[str]]) -> tuple[list[str], list[list[str]]]:
+    """Where every cell of a column carries the same unit ("21.5 °C"), the unit goes into the head."""
+    for i in range(len(head)):
+        found = [WITH_UNIT.fullmatch(row[i]) for row in rows if row[i]]
+        units = {match[2] for match in found if match}
+        if len(units) == 1 and all(found):
+            rows = [[*row[:i], WITH_UNIT.sub(r"\1", row[i]), *row[i + 1 :]] for row in rows]
+            unit = units.pop()
+            head = [*head[:i], head[i] if re.search(r"[\[(]", head[i]) else f"{head[i]} [{unit}]", *head[i + 1 :]]
+    return head, rows
 
 
 def head_is_words(head: list[str]) -> bool:
@@ -128,7 +145,7 @@ def _is_value(cell: str) -> bool:
     """A number, a time stamp or a state: something that stands in data and not in a head."""
     if not cell:
         return False
-    if not np.isnan(number(cell, True)) or not np.isnan(state(cell)):
+    if not np.isnan(number(cell, True)) or not np.isnan(state(cell)) or WITH_UNIT.fullmatch(cell):
         return True
     return bool(cell[0].isdigit() and (clock.TIME_OF_DAY.fullmatch(cell) or clock.STAMP.fullmatch(cell)))
 

@@ -10,6 +10,8 @@ import numpy as np
 TIME_OF_DAY = re.compile(r"(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*([AaPp])?\.?[Mm]?\.?")
 PARTED = re.compile(r"(\d{1,4})[./,\- ](\d{1,2})[./,\- ](\d{1,4})")
 STAMP = re.compile(PARTED.pattern + r"(?:[ T,;]+(.+))?")
+COMPACT = re.compile(r"((?:19|20)\d\d)(\d\d)(\d\d)[T ]?([01]\d|2[0-3])([0-5]\d)([0-5]\d)(\d{3})?")
+"""A date and a time of day without signs between: 20260301100530."""
 ZONE = re.compile(r"\s*(?:Z|[+-]\d{2}:?\d{2}|UTC|GMT)$")
 DAY = 86400.0
 
@@ -44,6 +46,7 @@ def _date(text: str, order: str) -> datetime | None:
 def _stamp(text: str, order: str) -> float | None:
     """Seconds since the year 1 of a date with or without a time of day."""
     text = ZONE.sub("", text.strip().strip('"'))
+    text = COMPACT.sub(lambda m: f"{m[1]}-{m[2]}-{m[3]} {m[4]}:{m[5]}:{m[6]}.{m[7] or 0}", text)
     found = STAMP.fullmatch(text)
     if not found:
         return None
@@ -54,23 +57,26 @@ def _stamp(text: str, order: str) -> float | None:
     return (day - datetime(1, 1, 1)) / timedelta(seconds=1) + clock
 
 
-def times_of_day(texts: Sequence[str]) -> tuple[np.ndarray, bool] | None:
-    """(seconds from the first midnight, midnight was passed) of a column of times of day; NaN where a cell is blank.
+def times_of_day(texts: Sequence[str]) -> tuple[np.ndarray, str] | None:
+    """(seconds from the first midnight, how they were read) of a column of times of day; NaN where a cell is blank.
 
-    Two parts only ("10:15") are hours and minutes, unless the first ever exceeds 23. None where the column is none.
+    Two parts only ("10:15") are hours and minutes, unless one ever exceeds 23 or the column starts at 00:00, as a
+    stop-watch does: then minutes and seconds. None where the column is none.
     """
     values = [_day_seconds(text) if text.strip() else np.nan for text in texts]
     if any(v is None for v in values) or not np.isfinite(np.array(values, float)).any():
         return None
-    seconds = np.array(values, float)
-    two_parts = all(text.count(":") == 1 for text in texts if text.strip())
-    if two_parts and seconds[np.isfinite(seconds)].max() >= DAY:
-        seconds = seconds / 60
+    seconds, round_, read = np.array(values, float), DAY, "times of day"
     known = np.flatnonzero(np.isfinite(seconds))
-    back = np.diff(seconds[known]) < -DAY / 2
-    days = np.zeros(len(seconds))
-    days[known[1:]] = np.cumsum(back)
-    return seconds + days * DAY, bool(back.any())
+    if all(text.count(":") == 1 for text in texts if text.strip()):
+        read = "hours:minutes"
+        if seconds[known].max() >= DAY or seconds[known[0]] == 0:
+            seconds, round_, read = seconds / 60, 3600.0, "minutes:seconds"
+    back = np.diff(seconds[known]) < -round_ / 2
+    rounds = np.zeros(len(seconds))
+    rounds[known[1:]] = np.cumsum(back)
+    past = " past midnight" if round_ == DAY else " past the full hour"
+    return seconds + rounds * round_, read + past * bool(back.any())
 
 
 def dates(texts: Sequence[str]) -> np.ndarray | None:

@@ -1,5 +1,6 @@
 """Which column of a table is the time, the input and the output, and what the others are."""
 
+import re
 from dataclasses import dataclass
 from itertools import product
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from loopbook.records.names import Name, Role
 from loopbook.records.record import RecordError
+from loopbook.records.steps import noise_level
 
 FEW_LEVELS = 20
 
@@ -98,9 +100,18 @@ def choose(
         quiet = [i for i in signals if i not in us and _plain(names[i])]
         ys = [i for i in quiet if levels(data[i]) > 1] or quiet
     pairs = [(u, y) for u, y in product(us, ys) if u != y]
+    if not pairs and len(us) > 1 and not input:  # "valve opening" beside "valve flow": the quieter input is the output
+        quieter = [i for i in us if names[i].strength(Role.OUTPUT) > 0 and loud_u[i] == min(loud_u[j] for j in us)]
+        pairs = [(u, y) for u, y in product(us, quieter) if u != y]
     if not pairs:
         raise RecordError(f"no output column found among {_all(names)}; name it with --output")
-    u, y = max(pairs, key=lambda p: (loud_u.get(p[0], 9) + loud_y.get(p[1], 9) + _moves(data, p), -p[0], -p[1]))
+
+    def score(pair: tuple[int, int]) -> tuple[float, float, int, int]:
+        u, y = pair
+        loud = loud_u.get(u, 9) + loud_y.get(y, 9) + _moves(data, pair)
+        return loud, _belong(names[u], names[y]) + _speaks(data[y]), -u, -y
+
+    u, y = max(pairs, key=score)
     notes = []
     if view and not input and not output:
         notes.append(
@@ -143,6 +154,19 @@ def _loudness(name: Name, column: np.ndarray, role: Role) -> float:
 def _moves(data: list[np.ndarray], pair: tuple[int, int]) -> float:
     """A column that stands still is a poor input and a poor output."""
     return sum(0.0 if levels(data[i]) > 1 else -3.0 for i in pair)
+
+
+def _belong(u: Name, y: Name) -> float:
+    """Do both names end in the same number, as "Heater 1" and "Temperature 1" do?"""
+    numbers = [re.findall(r"\d+$", n.words[-1]) if n.words else [] for n in (u, y)]
+    return 1.0 if numbers[0] and numbers[0] == numbers[1] else 0.0
+
+
+def _speaks(column: np.ndarray) -> float:
+    """From 0 for nothing but noise to 1 for a smooth signal."""
+    known = column[np.isfinite(column)]
+    spread = float(np.std(known)) if len(known) > 3 else 0.0
+    return max(0.0, 1 - noise_level(known) / spread) if spread else 0.0
 
 
 def _library_view(names: list[Name], signals: list[int]) -> list[int]:

@@ -7,9 +7,13 @@ import numpy as np
 from loopbook.records.steps import noise_level
 
 FAR = 8.0  # standard deviations of the noise, for a sample that both its sides contradict
+FAR_AWAY = 2.0  # times the range of all other samples
+MOST_MISSING = 0.4  # of the samples
 WINDOW = 7  # samples
 LONGEST_SPIKE = 3  # samples
 LEAST_CUT = 0.02  # of the samples: a shorter stand-still at the extreme is no limit
+LONGEST_STILL = 10  # samples that noise does not leave equal
+STILL_ELSEWHERE = 0.05  # of the samples
 NAMED_ONE_BY_ONE = 5
 
 
@@ -24,14 +28,42 @@ class Faults:
 
 def find_faults(time: np.ndarray, u: np.ndarray, y: np.ndarray) -> Faults:
     """Outliers and cut-off stretches of the measurement y, shape (n,)."""
-    spikes = _spikes(y, u)
-    limits, notes = _cuts(np.where(spikes, np.nan, y))
+    missing = _stand_ins(y, u)
+    usual = np.interp(np.arange(len(y)), np.flatnonzero(~missing), y[~missing]) if missing.any() else y
+    spikes = _spikes(usual, u)
+    limits, notes = _cuts(np.where(spikes | missing, np.nan, y))
+    if missing.any():
+        value = f"{y[missing][0]:.6g}"
+        notes.insert(0, f"The measurement is {value} at {missing.sum()} samples, far from all others: a logger's sign "
+                        "for a missing value; these samples were left out.")  # fmt: skip
     if spikes.any():
         shown = [f"{y[k]:.4g} at {time[k]:.4g} s" for k in np.flatnonzero(spikes)[:NAMED_ONE_BY_ONE]]
         more = f" and {spikes.sum() - len(shown)} more" if spikes.sum() > len(shown) else ""
         one = "is an outlier" if spikes.sum() == 1 else "are outliers"
         notes.insert(0, f"The measurement {', '.join(shown)}{more} {one} (a sensor's glitch) and left out of the fit.")
-    return Faults(spikes | limits, float(limits.mean()), tuple(notes))
+    stuck = _stuck(np.where(spikes | missing | limits, np.nan, y))
+    if stuck.any():
+        k = np.flatnonzero(stuck)
+        notes.append(f"The measurement stands still at {y[k[0]]:.4g} for {len(k)} samples from {time[k[0]]:.4g} s on, "
+                     "though elsewhere it never does: these samples were left out of the fit.")  # fmt: skip
+    return Faults(spikes | limits | missing | stuck, float(limits.mean()), tuple(notes))
+
+
+def _stand_ins(y: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Samples of one same value, such as -9999, that is further from all others than these are from each other.
+
+    A value that the measurement has at every sample before the input moves is its rest.
+    """
+    found = np.zeros(len(y), bool)
+    moves = int(np.argmax(u != u[0])) or len(u)
+    for extreme in (y.min(), y.max()):
+        at = y == extreme
+        others = y[~at]
+        if 1 < at.sum() <= MOST_MISSING * len(y) and len(np.unique(others)) > 2 and not at[:moves].all():
+            away = float(np.abs(others - extreme).min())
+            if away > FAR_AWAY * float(np.ptp(others)):
+                found |= at
+    return found
 
 
 def _spikes(y: np.ndarray, u: np.ndarray) -> np.ndarray:
@@ -40,12 +72,11 @@ def _spikes(y: np.ndarray, u: np.ndarray) -> np.ndarray:
     At the ends one side is judged alone: the first sample against the next ones, if those agree among themselves.
     """
     n = len(y)
-    sigma = max(noise_level(y), _quiet(y))
     if n < 3 * WINDOW:
         return np.zeros(n, bool)
-    if sigma == 0:
-        moves = np.abs(np.diff(y, 2))
-        sigma = float(np.median(moves[moves > 0])) / 1.65 if (moves > 0).any() else 0.0
+    bends = np.abs(np.diff(y, 2))
+    bends = bends[bends > 0]  # where a sensor stands at its limit there is nothing to see of its noise
+    sigma = max(noise_level(y), _quiet(y), float(np.median(bends)) / 1.65 if len(bends) else 0.0)
     median = _running_median(y, WINDOW)
     rough = float(np.median(np.abs(y - median)))
     threshold = max(FAR * max(sigma, 1.4826 * rough), 0.02 * float(np.ptp(median)))
@@ -72,6 +103,23 @@ def _quiet(y: np.ndarray) -> float:
 def _running_median(y: np.ndarray, width: int) -> np.ndarray:
     padded = np.pad(y, width // 2, mode="reflect")
     return np.median(np.lib.stride_tricks.sliding_window_view(padded, width), axis=1)
+
+
+def _stuck(y: np.ndarray) -> np.ndarray:
+    """The longest stretch in which a noisy measurement stands still, where it does so nowhere else."""
+    moves = np.diff(y)
+    if not np.mean(moves[1:] * moves[:-1] < 0) > 0.2:  # no noise: standing still is what it does at rest
+        return np.zeros(len(y), bool)
+    same = moves == 0
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
+    found = np.zeros(len(y), bool)
+    if not len(edges):
+        return found
+    start, end = max(zip(edges[::2], edges[1::2], strict=True), key=lambda run: run[1] - run[0])
+    elsewhere = int(same.sum()) - int(end - start)
+    if end - start >= max(LONGEST_STILL, LEAST_CUT * len(y)) and elsewhere < STILL_ELSEWHERE * len(y):
+        found[start + 1 : end + 1] = True
+    return found
 
 
 def _cuts(y: np.ndarray) -> tuple[np.ndarray, list[str]]:

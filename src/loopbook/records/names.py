@@ -43,7 +43,8 @@ WHOLE = {
 QUANTITIES = vocabulary(
     "temp temps temperature temperatur temperatura level niva nivel poziom fullstand fuellstand pegel pressure tryck "
     "druck cisnienie presion flow flode durchfluss przeplyw caudal flujo humidity fukt feuchte wilgotnosc humedad "
-    "concentration koncentration konzentration stezenie concentracion ph thermocouple thermoelement termopar termopara"
+    "concentration koncentration konzentration stezenie concentracion ph co2 o2 ppm thermocouple "
+    "thermoelement termopar termopara"
 )
 MEASURED = vocabulary(
     "y pv output measured measurement process sensor actual feedback value position lage pozycja posicion speed "
@@ -68,7 +69,7 @@ NAMED = {
     Role.TIME: vocabulary(
         "time tid czas zeit tiempo temps timestamp datetime elapsed uhrzeit zeitstempel tidpunkt klocka "
         "klockslag godzina hora uptime clock seconds second sec minutes minute sekunder sekunden sekundy "
-        "segundos minuter minuten minuty minutos millis micros millisecond milliseconds"
+        "segundos minuter minuten minuty minutos millis micros millisecond milliseconds xvalue"
     ),
     Role.DATE: vocabulary("date datum fecha dag dzien day tag dia data"),
     Role.COUNTER: vocabulary(
@@ -125,7 +126,7 @@ class Name:
 
     def strength(self, role: Role) -> float:
         """How loudly the name says input or output; 0 where it does not."""
-        words = [re.sub(r"\d+$", "", w) or w for w in self.words]
+        words = [w if w in QUANTITIES else re.sub(r"\d+$", "", w) or w for w in self.words]
         if any(self.says(r) for r in (Role.SETPOINT, Role.AMBIENT, Role.COUNTER, Role.OTHER)):
             return 0.0
         if len(words) == 1 and words[0] in WHOLE[role]:
@@ -161,8 +162,10 @@ def words_of(text: str) -> tuple[str, ...]:
 
     >>> words_of("PWM controller"), words_of("ovenTemperature_2"), words_of("Q1"), words_of("time_ms")
     (('pwm', 'controller'), ('oven', 'temperature', '2'), ('q1',), ('time', 'ms'))
+    >>> words_of("Tank pH")
+    ('tank', 'ph')
     """
-    parted = re.sub(r"(?<=[a-zà-öø-ÿ])(?=[A-ZÀ-ÖØ-Þ])", " ", text)
+    parted = re.sub(r"(?<=[a-zà-öø-ÿ])(?=[A-ZÀ-ÖØ-Þ])", " ", re.sub(r"\bpH\b", "ph", text))
     return tuple(w for w in re.split(r"[^a-z0-9µ]+", plain_letters(parted)) if w)
 
 

@@ -64,7 +64,7 @@ def read_record(
         samples, scale, unit, more = np.arange(len(data[u])) * interval, 1.0, "s", []
         said.append(f"There is no time column: the samples were taken to be {interval:g} s apart.")
     elif t in stamps:
-        samples, scale, unit, more = data[t], 1.0, "time stamps", notes
+        samples, scale, unit, more = data[t], 1.0, _read_as(notes), notes
     else:
         samples, (scale, unit, more) = data[t], _scale(names[t], data[t])
         more = [*notes, *more]
@@ -88,6 +88,7 @@ def read_record(
         cut=faults.cut,
         time_unit=unit,
         setpoint=read.values[-1] if aimed else None,
+        faults=faults.notes,
     )
 
 
@@ -120,6 +121,8 @@ def _stamps(
     Returns the seconds by column, the columns that are no signals, and what was done.
     """
     texts = {i: cells.column(i) for i, column in enumerate(data) if np.isnan(column).mean() > 0.5}
+    compact = {i: column for i in range(len(data)) if all(map(clock.COMPACT.fullmatch, column := cells.column(i)))}
+    texts |= compact
     clocks = {i: found for i, column in texts.items() if (found := clock.times_of_day(column)) is not None}
     days = {i: date for i, column in texts.items() if i not in clocks and (date := clock.dates(column)) is not None}
     for i, column in texts.items():
@@ -128,16 +131,25 @@ def _stamps(
     if clocks and days and (joined := _joined_stamps(cells, min(days), min(clocks))) is not None:
         d, c = min(days), min(clocks)
         note = f"Date '{names[d].text}' and time '{names[c].text}' were joined and turned into seconds."
-        return {c: joined}, set(texts), [note]
+        return {c: joined}, _no_signals(texts, data) | set(days) | set(clocks), [note]
     notes, stamps = [], {}
-    for i, (seconds, passed) in clocks.items():
+    for i, (seconds, read) in clocks.items():
         stamps[i] = seconds - seconds[np.isfinite(seconds)][0]
-        past = ", past midnight" if passed else ""
-        notes.append(f"Times of day in '{names[i].text}' were turned into seconds from the first sample{past}.")
+        notes.append(f"'{names[i].text}' holds {read}; they were turned into seconds from the first sample.")
     for i, seconds in days.items():
         stamps[i] = seconds - seconds[np.isfinite(seconds)][0]
         notes.append(f"Time stamps of '{names[i].text}' were turned into seconds from the first sample.")
-    return stamps, set(texts), notes
+    return stamps, _no_signals(texts, data), notes
+
+
+def _read_as(notes: list[str]) -> str:
+    """The time's unit in the line that every run prints: hours:minutes and minutes:seconds are worth saying."""
+    return next((form for form in ("hours:minutes", "minutes:seconds") for n in notes if form in n), "time stamps")
+
+
+def _no_signals(texts: dict[int, list[str]], data: list[np.ndarray]) -> set[int]:
+    """The columns that hold no numbers."""
+    return {i for i in texts if not np.isfinite(data[i]).any()}
 
 
 def _joined_stamps(cells: Cells, date: int, time: int) -> np.ndarray | None:

@@ -30,7 +30,7 @@ class Record:
     whose output is missing, None where none is: the input may step at one of them. others: further inputs that move.
     setpoint: that of a regulator, where the log has one, shape (n,).
     left_out: samples that a fit must not use (outliers, a sensor at its limit), shape (n,), None for none. cut: the
-    share of samples at a sensor's limit. time_unit: of the file's column.
+    share of samples at a sensor's limit. time_unit: of the file's column. faults: what the sensor did wrong.
 
     >>> import numpy as np
     >>> from loopbook.records.record import Record
@@ -54,6 +54,7 @@ class Record:
     cut: float = 0.0
     time_unit: str = "s"
     setpoint: np.ndarray | None = None
+    faults: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         arrays = [np.asarray(a, float) for a in (self.time, self.u, self.y)]

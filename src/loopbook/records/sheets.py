@@ -2,13 +2,14 @@
 
 from datetime import date, datetime, time
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from loopbook.records.cells import Cells, table
 from loopbook.records.record import RecordError
 from loopbook.records.units import TIME_UNITS
 
 SPREADSHEETS = {".xlsx", ".xlsm", ".xls", ".ods"}
+ENGINES: tuple[Literal["calamine", "openpyxl"], ...] = ("calamine", "openpyxl")
 PARQUET = {".parquet", ".pq"}
 
 
@@ -46,7 +47,7 @@ def _is_parquet(path: Path) -> bool:
 def _spreadsheet(path: Path) -> dict[str, list[list[str]]]:
     import pandas as pd
 
-    for engine in (None, "calamine"):
+    for engine in ENGINES:
         try:
             frames = pd.read_excel(path, sheet_name=None, header=None, dtype=object, engine=engine)
             break

@@ -113,3 +113,17 @@ def _answered(record: Record, before: int, noise: float) -> list[str]:
     if noise and moved < 10 * noise:
         return [f"The response ({moved:.3g}) is only {moved / noise:.1f} times the noise: the model is uncertain."]
     return []
+
+
+def drifts(record: Record, steps: Steps) -> bool:
+    """Does the output drift before the first step, beyond four standard errors of the slope?"""
+    used = record.used[: steps.before]
+    n = int(used.sum())
+    if n < 10:
+        return False
+    t, y = record.time[: steps.before][used], record.y[: steps.before][used]
+    t = t - t.mean()
+    slope = float(t @ (y - y.mean()) / (t @ t))
+    sigma = max(float(np.std(y - y.mean() - slope * t)) * np.sqrt(n / (n - 2)), steps.noise)
+    spans = np.ptp(record.time), np.ptp(record.y[record.used])
+    return abs(slope) > 4 * sigma / np.sqrt(t @ t) and abs(slope) * spans[0] > 0.02 * spans[1]

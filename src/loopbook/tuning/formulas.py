@@ -47,6 +47,9 @@ def compute(rule: Rule, data: ProcessData, extrapolate: bool = False, **options:
     beside = {name: _number(name, options[name]) for name in ("Kp", "tau") if name in options}
     numbers, how = data.numbers(rule.takes, **beside)
     values = {**numbers, **{name: _number(name, value) for name, value in options.items() if name != "Kp"}}
+    missing = {QUANTITIES[letter] for letter in rule.inputs if letter in QUANTITIES} - {*values, "closed"}
+    if missing:
+        raise RuleDoesNotApply(f"the process {'integrates' if 'Kv' in values else 'does not integrate'}")
     for letter, default in rule.defaults.items():
         values.setdefault(QUANTITIES[letter], _value(default, values))
     _positive(rule, values, values.keys() - numbers.keys() - options.keys())

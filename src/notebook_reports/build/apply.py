@@ -163,7 +163,7 @@ def apply(
     repeat: the command that did it, for the list of failures. ready: ``module:function`` that computes, once for all
     items, what each run would compute again; see `warm`. programs: writers of more formats. code: show code, and
     what is tagged `CODE`, in reports to be read. leave_out: tags of cells that are not run at all. A run that fails
-    leaves older reports alone. Raises UsageError before any kernel starts.
+    sets older reports aside under their name with .old behind it. Raises UsageError before any kernel starts.
     """
     console = console or Console()
     given = [word for name, value in parameters for word in ("-p", name, value)]
@@ -193,7 +193,7 @@ def apply(
         command = shlex.join([*repeat, *again, *given])
         failures = [replace(f, repeat=command) for one in done for f in one.failures]
         _tell(todo, done, console)
-        _tell_older([job for job in todo if job.notebook.path in failed], console)
+        _set_aside([job for job in todo if job.notebook.path in failed], console)
         return _finish(project, done, failures, todo, console)
 
 
@@ -253,7 +253,9 @@ def _tell(todo: Sequence[Job], done: Sequence[Done], console: Console) -> None:
         console.line(f"      {sum(path.parent == folder for path in paths)} reports in {folder}")
 
 
-def _tell_older(failed: Sequence[Job], console: Console) -> None:
-    """Which reports of an earlier run were left where this one failed."""
-    for path in (p for job in failed for p in job.outputs.values() if p.exists()):
-        console.line(f"      {path} is of an earlier run and was left as it is")
+def _set_aside(failed: Sequence[Job], console: Console) -> None:
+    """Reports of an earlier run do not stay where this one failed: each is renamed."""
+    for path in (p for job in failed for p in job.outputs.values() if p.is_file()):
+        older = path.with_name(f"{path.name}.old")
+        path.replace(older)
+        console.line(f"      {path} was of an earlier run and is now {older.name}")

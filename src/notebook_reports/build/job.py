@@ -22,6 +22,7 @@ from notebook_reports.project.failures import Failure
 from notebook_reports.project.project import EnvironmentProblem, Notebook, Project
 from notebook_reports.project.source import Source
 from notebook_reports.run.canonical import canonical, dump, renew_prose
+from notebook_reports.run.filled import filled
 
 
 @dataclass(frozen=True)
@@ -195,7 +196,7 @@ def _run(project: Project, job: Job, wanted: Wanted, remembers: bool) -> "_Resul
         atomic.write(stamps.failed_path(project, notebook), dump(ran.content))
         return Done(notebook, 0, [replace(ran.failure, repeat=repeat(job))], warnings, ran=True)
     warnings += [[cell, text] for cell, text in _not_seen(project, source, ran)]
-    used = sorted({*inputs.seen(project, source, ran.depends, (*fingerprint.RUNS, *fingerprint.EXPORTS))})
+    used = sorted({*inputs.seen(project, source, ran.depends, (*fingerprint.RUNS, *fingerprint.WRITES))})
     used = sorted({*used, *inputs.declared(project, source)})
     prints = fingerprint.of_run(project, source, used, since=began)
     return _result(ran.content, used, prints, ran.seconds, warnings)
@@ -210,7 +211,7 @@ def _renewed(project: Project, job: Job) -> _Result:
     """The last run's results in the prose of now."""
     stamp = job.stamp
     assert stamp is not None, "only what has a stamp is renewed"
-    plain = canonical(job.source.content, project.root, [c.id for c in job.source.cells])
+    plain = filled(canonical(job.source.content, project.root, [c.id for c in job.source.cells]), job.source)
     content = renew_prose(stamps.executed(project, job.notebook), plain)
     return _result(content, stamp.inputs, stamp.run, stamp.seconds, stamp.warnings)
 

@@ -21,6 +21,7 @@ from notebook_reports.export.model import Link, PageNumber, Report, walk
 from notebook_reports.export.page import LinkedTable, Page, page_name, read_page
 from notebook_reports.export.read.inline_text import read_inline
 from notebook_reports.export.read.notebook import level_headings, number_blocks, read
+from notebook_reports.export.read.solutions import LAST
 from notebook_reports.export.write.arrangement import Arrangement
 from notebook_reports.export.write.typst import IMPORT, TypstWriter
 from notebook_reports.export.write.typst_engine import CHAPTER, TypstFailed, compile_settled, too_wide_table
@@ -35,7 +36,8 @@ class Chapter:
 
     name: "folder/notebook", as links call it. title: default its first top heading. part: chapters of the same part
     stand together. about: inline text below the title of the part that begins here. document: what its equation
-    anchors begin with. assets: where its relative images are; root: below which they have to lie.
+    anchors begin with. assets: where its relative images are; root: below which they have to lie. solutions: where
+    those of its exercises stand, see `export.read.solutions`.
     """
 
     name: str
@@ -46,6 +48,7 @@ class Chapter:
     document: str = ""
     assets: Path | None = None
     root: Path | None = None
+    solutions: str = LAST
 
 
 @dataclass(frozen=True)
@@ -128,6 +131,7 @@ def _bind(
             folder=chapter.assets,
             root=chapter.root,
             strict_alt=strict_alt,
+            solutions=chapter.solutions,
         )
         bound.append(_Bound(report, str(number), chapter.part if chapter.part != part else "", chapter.about))
         part = chapter.part

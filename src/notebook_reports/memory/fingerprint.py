@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 
 PRESS = Path(__file__).parents[1]
 RUNS = ("run", "project/parameters.py", "project/ranges.py", "project/source.py")
-EXPORTS = ("export", "mathematics", "display.py")
+WRITES = ("export", "mathematics")
+"""Of these a kernel may load a module, for a message's words; what it computes is not theirs."""
+EXPORTS = (*WRITES, "display.py")
 PAGES = (*EXPORTS, "pages", "ledger")
 OWN = {TABLE_MIME, FIGURE_MIME, EQUATION_MIME, CHECKS_MIME, "application/json"}
 MARKUP = ("text/html", "text/markdown")

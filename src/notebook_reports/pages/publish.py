@@ -20,13 +20,14 @@ from notebook_reports.memory import fingerprint, sealed, stamps
 from notebook_reports.memory.hashes import hash_file, hash_now, of_bytes
 from notebook_reports.memory.manifest import manifest
 from notebook_reports.pages import ledger_page as ledger
+from notebook_reports.pages import offered
 from notebook_reports.pages.links import dead_links
 from notebook_reports.pages.medium import PAPER, SCREEN
 from notebook_reports.pages.preface import preface
 from notebook_reports.project import atomic
 from notebook_reports.project.console import Console, because
 from notebook_reports.project.failures import Failure
-from notebook_reports.project.outline import FILE, read_outline
+from notebook_reports.project.outline import FILE, pages_of, read_outline
 from notebook_reports.project.project import FORMATS, Notebook, Project, UsageError
 from notebook_reports.run.quick_imports import import_nbformat
 
@@ -43,7 +44,7 @@ def publishes(project: Project, complete: bool, formats: tuple[str, ...]) -> boo
 def reasons(project: Project, code: str = "") -> list[str]:
     """Why the pages have to be written; none where they are as they should be. code: see `publish`."""
     stamp = _stamp(project)
-    gone = [n for n in NAMES if stamp and hash_now(project.reports / n) != stamp["files"].get(n)]
+    gone = [n for n in (*NAMES, *pages_of(project)) if stamp and hash_now(project.reports / n) != stamp["files"].get(n)]
     if gone:
         return [f"reports/{name} is not as it was written" for name in gone]
     return fingerprint.differences(stamp["prints"] if stamp else None, _prints(project, code))
@@ -74,19 +75,23 @@ def publish(project: Project, console: Console, code: str = "") -> list[Failure]
     if failures:
         withdraw(project)
         return failures
+    before = _stamp(project)
+    for name in set(before["files"] if before else ()) - set(made):
+        atomic.remove(project.reports / name)
     for name, content in made.items():
         atomic.write(project.reports / name, content)
     files = {name: of_bytes(content) for name, content in made.items()}
     sealed.write(project.cache / STAMP, {"prints": prints, "files": files})
-    words = ["ok  ", f"reports/{BOOK}, {LEDGER}, {INDEX}", f"{time.monotonic() - began:.1f} s", because(why, True)]
+    words = ["ok  ", f"reports/{', '.join(made)}", f"{time.monotonic() - began:.1f} s", because(why, True)]
     console.line("  ".join(w for w in words if w))
     return []
 
 
 def withdraw(project: Project) -> None:
     """Remove the pages."""
+    stamp = _stamp(project)
     atomic.clear(project.cache / STAMP, also_files=True)
-    for name in NAMES:
+    for name in dict.fromkeys((*NAMES, *(stamp["files"] if stamp else ()))):
         atomic.remove(project.reports / name)
 
 
@@ -126,6 +131,8 @@ def _make(project: Project, code: str) -> tuple[dict[str, bytes], list[Failure]]
         lines = [*ledger.sentences(counts), ledger.errors(found), built]
         made[BOOK] = volume(project, outline, front, appendix, lines, code or outline.code)
         on_screen = ledger.pages(on_the_screen, counts, found, words, titles)
+        extra = offered.made(outline.pages, NAMES)
+        made |= {page.name: page.text.encode() for page in extra}
         made[LEDGER] = screen.ledger_page(on_screen, outline.title)
     except ExportError as error:
         repeat = f"loopbook build {error.notebook}" if "/" in error.notebook else "loopbook build"
@@ -137,7 +144,7 @@ def _make(project: Project, code: str) -> tuple[dict[str, bytes], list[Failure]]
     sizes = {name: len(content) for name, content in made.items()}
     files = [*(n for entry in entries for n in entry["reports"].values()), *ledger_files.FILES.values()]
     sizes |= {name: (project.reports / name).stat().st_size for name in files if (project.reports / name).exists()}
-    made[INDEX] = screen.index_page(outline, counts, found, executed, [p.title for p in on_screen], tools, sizes)
+    made[INDEX] = screen.index_page(outline, counts, found, executed, [p.title for p in on_screen], tools, sizes, extra)
     dead = [(name, line) for name in (LEDGER, INDEX) for line in dead_links(name, project.reports, made)]
     return made, [Failure("", f"reports/{name}: {line}", kind="export", repeat="loopbook build") for name, line in dead]
 
@@ -163,4 +170,5 @@ def _prints(project: Project, code: str) -> fingerprint.Prints:
     beside = (p for p in project.notebooks_folder.rglob("*") if p.is_file() and p.suffix != ".ipynb")
     for path in sorted((*beside, *project.documents.rglob("*.toml"))):
         prints[path.relative_to(project.root).as_posix()] = hash_file(path)
+    prints |= offered.print_of(pages_of(project))
     return {**prints, **fingerprint.of_pages(), **fingerprint.environment(project)}

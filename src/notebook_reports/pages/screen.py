@@ -21,6 +21,7 @@ from notebook_reports.pages.errata import errata
 from notebook_reports.pages.front import finds, front_picture, opening
 from notebook_reports.pages.ledger_page import NAMES
 from notebook_reports.pages.medium import as_sections
+from notebook_reports.pages.offered import OfferedPage
 from notebook_reports.project.outline import Outline
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -42,12 +43,13 @@ def index_page(
     sections: Sequence[str],
     versions: Mapping[str, str],
     sizes: Mapping[str, int],
+    pages: Sequence[OfferedPage] = (),
 ) -> bytes:
     """The front page: a picture, what was found in words, the book, the ledger, each notebook with its reports.
 
     executed: the notebooks by id. sections: titles of the ledger's sections. sizes: of the files below ``reports/``, in
-    bytes, by name; the ledger's tables are listed where they are among them. Raises UsageError where the outline names
-    a figure or an entry that is not there.
+    bytes, by name; the ledger's tables are listed where they are among them. pages: of other packages. Raises
+    UsageError where the outline names a figure or an entry that is not there.
     """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
@@ -68,6 +70,7 @@ def index_page(
         "size": lambda name: size(sizes[name]),
         "tables": [name for name in FILES.values() if name in sizes],
         "chips": chips,
+        "pages": pages,
         "inline": lambda text: HtmlWriter().inline(read_inline(text)),
         "escape": escape,
     }

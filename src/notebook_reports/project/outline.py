@@ -4,11 +4,13 @@ title = "PID control and pole placement, recomputed"
 subtitle = "Three documents, and every number in them"
 code = "inline"                # or "end" (of each chapter), or "none"
 picture = { notebook = "pid_report/01_terms", figure = 1 }   # of the front page
+pages = ["dial.html"]          # that an installed package offers, see `pages.offered`
 
 [[part]]
 folder = "pid_report"          # of notebooks/
 title = "A report on the PID controller"
 about = "How it works, how it is programmed, how it is tuned."
+order = ["introduction"]       # notebooks that come first; the others follow by their names
 
 [[part.find]]                  # what the part found, with the entry of the ledger that shows it
 says = "Its tracking gain divides by the wrong time constant."
@@ -16,6 +18,7 @@ misprint = "eq-4.4"            # or claim, or value
 verdict = "proved"
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -59,6 +62,7 @@ class Outline:
     parts: tuple[Part, ...]
     code: str = "inline"
     picture: tuple[str, int] | None = None
+    pages: tuple[str, ...] = ()
 
     @property
     def entries(self) -> list[Entry]:
@@ -78,6 +82,7 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
         content = read_toml(path, where)
         named = [(p["folder"], p["title"], p.get("about", "")) for p in tables(content, "part", where)]
         finds = [_finds(p, where) for p in tables(content, "part", where)]
+        orders = [p.get("order", []) for p in tables(content, "part", where)]
         title, subtitle, code = content["title"], content.get("subtitle", ""), content.get("code", CODE[0])
     except TomlError as error:
         raise UsageError(str(error)) from None
@@ -97,10 +102,21 @@ def read_outline(project: Project, entries: Sequence[Entry]) -> Outline:
     if wrong:
         raise UsageError("; ".join(sorted(wrong)))
     parts = [
-        Part(*named_part, tuple(e for e in entries if e["folder"] == named_part[0]), found)
-        for named_part, found in zip(named, finds, strict=True)
+        Part(*named_part, _ordered([e for e in entries if e["folder"] == named_part[0]], order), found)
+        for named_part, found, order in zip(named, finds, orders, strict=True)
     ]
-    return Outline(title, subtitle, tuple(parts), code, _picture(content.get("picture"), entries, where))
+    picture = _picture(content.get("picture"), entries, where)
+    return Outline(title, subtitle, tuple(parts), code, picture, pages_of(project))
+
+
+def _ordered(entries: Sequence[Entry], order: Any) -> tuple[Entry, ...]:
+    """The entries that are named first, then the others. Raises UsageError for a name that is none of them."""
+    names = [str(entry["id"]).rpartition("/")[2] for entry in entries]
+    wrong = [name for name in order if name not in names] if isinstance(order, list) else ["which is no list"]
+    if wrong:
+        raise UsageError(f"notebooks/{FILE}: order names {', '.join(map(str, wrong))}; there are {', '.join(names)}")
+    place = {name: i for i, name in enumerate(order)}
+    return tuple(sorted(entries, key=lambda e: place.get(str(e["id"]).rpartition("/")[2], len(place))))
 
 
 def _finds(part: dict[str, Any], where: str) -> tuple[Find, ...]:
@@ -125,3 +141,16 @@ def _picture(told: Any, entries: Sequence[Entry], where: str) -> tuple[str, int]
     if name not in [e["id"] for e in entries]:
         raise UsageError(f"{where}: the picture is of notebooks/{name}.ipynb, which is not there")
     return name, number
+
+
+def pages_of(project: Project) -> tuple[str, ...]:
+    """The names of the pages that the book asks packages for. Raises UsageError for what are no names of HTML files."""
+    where = f"notebooks/{FILE}"
+    try:
+        names = read_toml(project.notebooks_folder / FILE, where).get("pages", [])
+    except TomlError as error:
+        raise UsageError(str(error)) from None
+    plain = isinstance(names, list) and all(isinstance(n, str) and re.fullmatch(r"[\w-]+\.html", n) for n in names)
+    if not plain:
+        raise UsageError(f'{where}: pages = {names!r}: names of files such as "dial.html" are expected')
+    return tuple(names)

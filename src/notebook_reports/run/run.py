@@ -27,6 +27,7 @@ from notebook_reports.project.project import Project
 from notebook_reports.project.source import INJECTED, Source
 from notebook_reports.run import kernels
 from notebook_reports.run.canonical import canonical
+from notebook_reports.run.filled import filled
 from notebook_reports.run.surroundings import environment
 
 _ANSI = re.compile(r"\x1b\[[0-9;]*m")
@@ -114,7 +115,8 @@ def run_notebook(
         error, client = _execute(notebook, source.path.parent, project, timeout)
     if kernels.stopping():
         raise kernels.Stopped
-    content = canonical(notebook, project.root, [c.id for c in source.cells], _elsewhere(source, project))
+    executed = canonical(notebook, project.root, [c.id for c in source.cells], _elsewhere(source, project))
+    content = filled(executed, source, parameters)
     failure = _failure(content, name, error, client, timeout)
     depends = client.depends if client else {}
     warnings = _warnings(content) + [

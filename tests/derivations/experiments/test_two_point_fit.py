@@ -39,3 +39,14 @@ def test_the_double_lag_is_at_p_at_the_instant_in_closed_form(p):
     step = sp.inverse_laplace_transform(1 / (s * (1 + 2 * s) ** 2), s, t)
     rest = (1 - step).subs(t, at)
     assert abs(sp.N(rest - (1 - p), 30)) < sp.Float("1e-25")
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_each_lag_of_a_row_is_driven_by_the_one_before(order):
+    before, y = f.equal_lags(order - 1), f.equal_lags(order)
+    assert sp.simplify(sp.diff(y, f.x) - (before - y)) == 0 and y.subs(f.x, 0) == 0
+
+
+def test_the_instant_in_closed_form_belongs_to_two_equal_lags():
+    x = f.double_lag_instant(sp.Rational(283, 1000)) / f.tau
+    assert float(f.equal_lags(2).subs(f.x, x)) == pytest.approx(0.283, rel=1e-12)

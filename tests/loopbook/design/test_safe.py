@@ -183,12 +183,31 @@ def _ringing():
     return 2 * (1 - np.exp(-0.03 * s) * (np.cos(0.2 * s) + 0.15 * np.sin(0.2 * s)))
 
 
+def _beside(gain_slow, slow, gain_fast, fast):
+    """Two paths with gains of their own, from a step at 50 s."""
+    s = np.maximum(T - 50, 0)
+    return gain_slow * (1 - np.exp(-s / slow)) + gain_fast * (1 - np.exp(-s / fast))
+
+
 REFUSED = {
     "no excitation": (np.ones(len(T)), LAG, "no step found"),
     "no answer": (STEP, _noise(len(T), 1.0), "does not answer|lost in the noise|not determined"),
     "drift": (STEP, 0.02 * T + _noise(len(T), 0.02), "a drift explains"),
     "closed loop": (*_pi_loop(), "closed loop"),
+    "a zero that overshoots": (
+        STEP,
+        _beside(-1.0, 30.0, 3.0, 8.0) + _noise(len(T), 0.01),
+        "comes back without ringing",
+    ),
+    "a random walk": (STEP, np.cumsum(_noise(len(T), 0.3, 5)), "something else|drift|does not answer|not determined"),
+    "a parabola": (STEP, 1e-4 * T**2 + _noise(len(T), 0.05), "a drift explains"),
+    "the output moves first": (
+        np.where(T >= 80, 1.0, 0.0),
+        LAG + _noise(len(T), 0.01),
+        "not determined|not at rest|else",
+    ),
     "saturated": (STEP, np.minimum(LAG, 0.02), "saturated|not determined|below|shorter"),
+    "saturated in noise": (STEP, np.minimum(LAG + _noise(len(T), 0.05), 0.06), "saturated"),
     "faster than the samples": (STEP, 2 * STEP + _noise(len(T), 0.001), "shorter than the sampling interval"),
     "asymmetric": (
         np.where((T >= 50) & (T < 170), 1.0, np.where(T >= 170, -1.0, 0.0)),
@@ -228,6 +247,22 @@ def test_a_process_that_starts_the_wrong_way_is_seen_and_kept_slow(tmp_path):
     assert loop.is_stable and loop.margins().Ms.value < 2
 
 
+def test_two_equal_lags_are_determined(tmp_path):
+    s = np.maximum(T - 50, 0)
+    y = 2 * (1 - (1 + s / 15) * np.exp(-s / 15)) + _noise(len(T), 0.02)
+    model = Study(written(tmp_path / "r.csv", T, STEP, y)).model
+    assert (
+        model.gain == pytest.approx(2, rel=0.02) and model.lags == pytest.approx((15, 15), rel=0.1) and model.delay < 1
+    )
+
+
+def test_a_sensor_that_freezes_for_a_while_is_said_and_left_out(tmp_path):
+    y = LAG + _noise(len(T), 0.02)
+    y[70:120] = y[70]
+    study = Study(written(tmp_path / "r.csv", T, STEP, y))
+    assert study.model.lags == pytest.approx((20,), rel=0.1) and any("stands still" in text for text in study.mind)
+
+
 def test_parameters_that_the_user_knows_are_kept(tmp_path):
     file = written(tmp_path / "r.csv", T, STEP, LAG + _noise(len(T), 0.02))
     study = Study(file, known="K=2.1, L=4")
@@ -262,3 +297,26 @@ def test_processes_without_dead_time_and_of_high_order_are_designed_for(tmp_path
     assert study.running.Ms < 2 and study.running.overshoot < 30 and study.model.latex()
     json.dumps(study.results(), allow_nan=False)
     assert study.running.input_noise == 0.0  # no record, no noise
+
+
+def test_a_speed_that_the_process_does_not_allow_is_refused_and_what_lacks_is_in_the_data(example_file):
+    for closed in (0.001, 1.0):
+        with pytest.raises(ModelError, match="faster than the process allows"):
+            _ = Study(example_file, closed_loop=closed).recommendation
+    with pytest.raises(RecordError, match=r"closed loop of 0.001 s .*ask for a slower one"):
+        _ = Study(OWN / "no_dead_time.toml", closed_loop=0.001).recommendation
+    loud = Study(OWN / "time_ms_suffix.csv", speed=1.0).results()
+    assert any("would shake the input" in text for text in loud["mind"])
+
+
+UNUSUAL = {
+    "rings in noise": (_ringing() + _noise(len(T), 0.3), "damping", 0.148, 0.1),
+    "starts the wrong way": (_beside(4.0, 20.0, -3.0, 6.0) + _noise(len(T), 0.01), "zero", 36.0, 8.0),
+}
+
+
+@pytest.mark.parametrize("what", UNUSUAL)
+def test_what_once_was_refused_for_its_shape_has_a_model_of_that_shape(tmp_path, what):
+    y, name, value, off = UNUSUAL[what]
+    model = Study(written(tmp_path / "r.csv", T, STEP, y)).model
+    assert getattr(model, name) == pytest.approx(value, abs=off)

@@ -1,6 +1,7 @@
 """The documents' own drawings, from data: each has a caption that names its figure, words, and room on the page."""
 
 import re
+from pathlib import Path
 
 import matplotlib
 import pytest
@@ -15,7 +16,7 @@ from loopbook.plots.circuit import Circuit
 
 pytestmark = pytest.mark.long
 
-FIGURES = {of_the_tank: {"1", "2", "4", "7", "9"}, of_the_report: {"3.1", "3.11", "4.1", "4.4"}}
+FIGURES = {of_the_tank: {"1", "2", "4", "7", "9"}, of_the_report: {"3.1", "3.11", "4.1", "4.4", "5.6"}}
 
 
 def drawings(module):
@@ -26,6 +27,12 @@ def drawings(module):
 def test_every_lost_drawing_is_drawn(module):
     found = {re.match(r"Figure ([\d.]+) of the", data.caption)[1] for data in drawings(module).values()}
     assert found == FIGURES[module]
+
+
+@pytest.mark.parametrize("name", drawings(of_the_tank))
+def test_a_drawing_of_the_tank_stands_in_a_chapter(name):
+    chapters = (Path(__file__).parents[3] / "notebooks" / "double_tank").glob("*.ipynb")
+    assert sum(f"drawing(double_tank.diagrams.{name})" in c.read_text("utf-8") for c in chapters) == 1
 
 
 @pytest.mark.parametrize("data", [d for module in FIGURES for d in drawings(module).values()])

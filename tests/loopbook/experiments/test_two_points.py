@@ -5,7 +5,8 @@ import math
 import pytest
 
 from loopbook.experiments.data import DataError
-from loopbook.experiments.two_points import fit
+from loopbook.experiments.two_points import PARTS, equal_lags_instants, fit
+from loopbook.process.construct import tf
 
 
 @pytest.mark.parametrize(
@@ -28,3 +29,15 @@ def test_a_lag_with_dead_time_is_returned():
 def test_impossible_instants_are_refused(t1, t2, words):
     with pytest.raises(DataError, match=words):
         fit(1, t1, t2)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 6])
+def test_equal_lags_have_come_so_far_at_their_instants(order):
+    reached = tf(1, [[2.5, 1]] * order).step(equal_lags_instants(order, 2.5))
+    assert reached == pytest.approx(PARTS, rel=1e-9)
+
+
+@pytest.mark.parametrize("order, tau", [(0, 1.0), (2, 0.0), (2, -1.0), (2, math.nan)])
+def test_lags_that_are_none_are_refused(order, tau):
+    with pytest.raises(DataError, match="lags in a row"):
+        equal_lags_instants(order, tau)

@@ -159,3 +159,18 @@ def test_the_jump_by_value():
     loop = SampledLoop(Process([1, 2], [1, 1], 0.05), Rst((1, -1), (0.2,), (0.2,), 0.05))
     assert loop.margins().delay == pytest.approx(0.25, abs=1e-12)
     assert loop.with_delay(0.25).is_stable and not loop.with_delay(0.25 + 1e-6).is_stable
+
+
+@pytest.mark.parametrize("whole", range(1, 30, 4))
+@pytest.mark.parametrize("past", [-1e-3, -1e-6, 1e-6, 1e-3])
+def test_a_margin_just_past_a_whole_interval_is_found(whole, past):
+    """Where the zero of a PI cancels the process's lag, all that is left is g/(z - 1); its margin is put beside l h."""
+    w = np.pi / (2 * (whole + past) + 1)  # the crossover for which the phase allows so many intervals
+    g, pole = 2 * np.sin(w / 2), np.exp(-0.1)
+    K = g / (2 * (1 - pole))
+    loop = SampledLoop(
+        Process([2.0], [10.0, 1.0], 0.0), Rst(R=(1.0, -1.0), S=(K, -K * pole), T=(K * (1 - pole),), h=1.0)
+    )
+    margin = loop.margins().delay
+    assert margin == pytest.approx(whole + past, abs=0.05)
+    assert loop.with_delay(margin * (1 - 1e-7)).is_stable and not loop.with_delay(margin * (1 + 1e-7)).is_stable

@@ -111,3 +111,11 @@ def test_times_before_a_signal_of_almost_no_length_leave_no_warning():
     tiny = Signal(np.array([0.0, 1e-308]), np.ones((1, 3)))
     with np.errstate(all="raise"):
         assert tiny([-1.0, -1e300, 0.0]).tolist() == [0.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize("beyond", [0.0, 1e-16, 3e-16, 1e-15, 1e-13, 1e-11])
+def test_a_horizon_just_beyond_whole_cells_makes_no_cell_of_noise(beyond):
+    """The slope's maximum was sought in a last cell of 3e-14 s, where the polynomial is rounding over rounding."""
+    y = open_loop_step(Process([1], [4, 1, 1]), 96.0 * (1 + beyond))
+    when, slope = y.derivative().maximum()
+    assert (when, slope) == pytest.approx((2.7226888500692, 0.355765566250669), rel=1e-9)

@@ -157,3 +157,77 @@ def test_a_record_refuses_what_it_cannot_hold():
         Record(T, U, np.where(T > 5, np.nan, Y))
     with pytest.raises(RecordError, match="increase strictly"):
         Record(T[::-1], U, Y)
+
+
+LONG = np.arange(40.0)
+UP = np.where(LONG >= 10, 50.0, 10.0)
+RISEN = np.round(20 + 30 * (1 - np.exp(-np.maximum(LONG - 12, 0) / 8)) + 0.01 * np.sin(7 * LONG), 3)
+
+
+@pytest.mark.parametrize(
+    ("head", "u", "y"),
+    [
+        ("time,valve flow,valve opening", "valve opening", "valve flow"),
+        ("time,pH,Acid flow", "Acid flow", "pH"),
+        ("time,CO2 ppm,Fan level", "Fan level", "CO2 ppm"),
+        ("Zeit,Regelgröße,Stellgröße", "Stellgröße", "Regelgröße"),
+        ("Tid,Mätsignal,Ventilläge", "Ventilläge", "Mätsignal"),
+        ("Czas,Wartość mierzona,Sygnał sterujący", "Sygnał sterujący", "Wartość mierzona"),
+        ("Tiempo,Variable de proceso,Señal de control", "Señal de control", "Variable de proceso"),
+        ("X_Value,Temperature,Heater", "Heater", "Temperature"),
+    ],
+)
+@pytest.mark.parametrize("swapped", [False, True])
+def test_names_tell_input_from_output_in_either_order(tmp_path, head, u, y, swapped):
+    names = head.split(",")
+    columns = {names[0]: LONG, u: UP, y: RISEN}
+    order = [names[0], *(names[:0:-1] if swapped else names[1:])]
+    record = read(tmp_path, lines(*[columns[n] for n in order], head=",".join(order)))
+    assert (record.input_name, record.output_name) == (u, y)
+
+
+def test_of_two_outputs_the_one_with_the_inputs_number_is_taken(tmp_path):
+    other = 0.5 * RISEN
+    for order in ((RISEN, other), (other, RISEN)):
+        head = "time,Heater 1,Temperature 1,Temperature 2"
+        names = head if order[0] is RISEN else "time,Heater 1,Temperature 2,Temperature 1"
+        assert read(tmp_path, lines(LONG, UP, *order, head=names)).output_name == "Temperature 1"
+
+
+def stop_watch(seconds):
+    return f"{int(seconds) // 60:02}:{int(seconds) % 60:02}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        lines([f"{t:g} s" for t in LONG], [f"{v:g} %" for v in UP], [f"{v} °C" for v in RISEN], head="time,u,y"),
+        lines(LONG, [f"{v:g}%" for v in UP], RISEN, head="time,u,y"),
+        "// " + lines(LONG, UP, RISEN, head="time,u,y"),
+        "# time, u, y\n# started by hand\n" + lines(LONG, UP, RISEN),
+        lines([stop_watch(t) for t in LONG], UP, RISEN, head="time,u,y"),
+        lines([stop_watch(t + 3580) for t in LONG], UP, RISEN, head="time,u,y"),
+        lines([f"202512312358{int(t):02}" for t in LONG], UP, RISEN, head="time,u,y"),
+        lines(LONG, [v if i in (0, 10) else "" for i, v in enumerate(UP)], RISEN, head="time,u,y"),
+    ],
+)
+def test_a_loggers_habits_change_nothing(tmp_path, text):
+    record = read(tmp_path, text)
+    np.testing.assert_allclose(record.time, LONG, atol=1e-6)
+    np.testing.assert_array_equal(record.u, UP)
+    np.testing.assert_array_equal(record.y, RISEN)
+
+
+def test_hours_and_minutes_are_not_minutes_and_seconds(tmp_path):
+    texts = [stop_watch(t + 8 * 60 + 15) for t in LONG]
+    record = read(tmp_path, lines(texts, UP, RISEN, head="time,u,y"))
+    assert record.sampling == 60.0 and record.time_unit == "hours:minutes"
+
+
+def test_a_loggers_sign_for_a_missing_value_is_no_measurement(tmp_path):
+    y = RISEN.copy()
+    y[[0, 1, 2, 3, 20]] = -9999
+    record = read(tmp_path, lines(LONG, UP, y, head="time,u,y"))
+    assert record.left_out.sum() == 5 and any("missing value" in text for text in record.assumptions)
+    jumped = np.where(LONG < 10, 0.0, 100 + 0.01 * np.sin(7 * LONG))
+    assert not read(tmp_path, lines(LONG, UP, jumped, head="time,u,y")).left_out.any()

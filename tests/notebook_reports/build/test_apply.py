@@ -94,16 +94,17 @@ def test_data_that_a_notebook_shows_as_json_is_a_report_of_its_own(bench, reader
     assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8")) == {"K": 0.5}
     outcome, said = run(bench, reader, [single])
     assert outcome.code == 1 and "json: LookupError: the notebook shows no data as JSON" in said
-    assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8")) == {"K": 0.5}
-    assert f"{tmp_path / 'a.json'} is of an earlier run and was left as it is" in said
+    assert json.loads((tmp_path / "a.json.old").read_text(encoding="utf-8")) == {"K": 0.5}
+    assert f"{tmp_path / 'a.json'} was of an earlier run and is now a.json.old" in said
 
 
-def test_a_run_that_fails_leaves_an_older_report_as_it_is(bench, reader, tmp_path):
+def test_a_run_that_fails_leaves_no_older_report_in_its_place(bench, reader, tmp_path):
     file, report = tmp_path / "a.csv", tmp_path / "a-design.ipynb"
     file.write_text("-1")
     report.write_text("older")
     outcome, said = run(bench, reader, items([file], None, "design", ["ipynb"]))
-    assert outcome.code == 1 and report.read_text() == "older" and "is of an earlier run" in said
+    assert outcome.code == 1 and not report.exists() and "was of an earlier run" in said
+    assert (tmp_path / "a-design.ipynb.old").read_text() == "older"
 
 
 def test_code_is_hidden_and_cells_are_left_out(bench, tmp_path):

@@ -136,6 +136,16 @@ def test_a_template_exports_again_without_running(two, monkeypatch):
     assert f"(exported again: {name})" in two.said
 
 
+def test_what_a_notebook_shows_its_results_with_is_part_of_its_run(bench):
+    """How a number is written stands in the outputs: who changes it has to run the notebooks that show one."""
+    bench.write("a/table", TITLE, "from notebook_reports.display import Table\nTable(['x'], [[1.5]])")
+    assert bench.build().code == 0
+    run = json.loads((bench.root / ".cache/stamps/a/table.json").read_text())["run"]
+    names = [name for name in run if name.endswith("notebook_reports/display.py")]
+    assert len(names) == 1 and run[names[0]]
+    assert not any("/export/" in name or "/mathematics/" in name for name in run)
+
+
 def test_the_environment_rebuilds_all(two, monkeypatch):
     (two.root / "environment.txt").write_text("numpy==2.0\n")
     two.build()

@@ -9,10 +9,10 @@ import threading
 
 import pytest
 
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (locks/browser.txt)")
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: make browser")
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 if not CHROMIUM:
-    pytest.skip("no chromium on PATH", allow_module_level=True)
+    pytest.skip("no chromium on PATH: apt-get install chromium, then make browser", allow_module_level=True)
 pytestmark = pytest.mark.xdist_group("browser")
 
 QUIET = ("disable-background-networking", "disable-component-update", "disable-sync", "no-first-run", "disable-quic")

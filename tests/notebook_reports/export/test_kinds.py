@@ -19,11 +19,11 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output, new_raw_cell
 from tools.pages.notebook_words import compare
 from tools.pages.page_words import outside, text_of
-from tools.pages.pdf_text import PdfText
 
 from notebook_reports.export.exporters.html import HtmlExporter
 from notebook_reports.export.exporters.pdf import PdfExporter
 from notebook_reports.export.read import outputs
+from notebook_reports.export.read.pdf_text import PdfText
 
 pytestmark = pytest.mark.builds
 

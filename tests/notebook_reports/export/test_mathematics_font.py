@@ -36,6 +36,17 @@ def test_a_single_letter_comes_with_its_italic_and_brackets_grow():
     assert any(construction.MathGlyphVariantRecord for construction in variants)
 
 
+@pytest.mark.parametrize("latex", [r"\sqrt{y}", r"\sqrt[3]{y}", r"y^{\sqrt{2}}"])
+def test_a_root_comes_with_its_sign_in_all_sizes(latex):
+    """The sign is no text of the formula: without its glyph a browser draws the radicand alone."""
+    font = font_in(font_face(latex_to_mathml(latex)))
+    sign = font.getBestCmap()[ord("√")]
+    variants = font["MATH"].table.MathVariants
+    sizes = dict(zip(variants.VertGlyphCoverage.glyphs, variants.VertGlyphConstruction, strict=True))
+    assert len(sizes[sign].MathGlyphVariantRecord) > 2
+    assert ord("√") not in font_in(font_face("<math><mi>y</mi></math>")).getBestCmap()
+
+
 def test_a_page_without_formulas_brings_no_font_and_one_with_few_a_small_one():
     assert font_face("<p>x = 1</p>") == ""
     assert len(font_face("<math><mi>x</mi></math>")) < 12_000

@@ -3,10 +3,10 @@
 import pytest
 from tools.pages.page_fill import fills
 from tools.pages.page_words import in_the_text, text_of
-from tools.pages.pdf_text import PdfText
 
 from notebook_reports.display import Figure, Table
 from notebook_reports.export.exporters.choose import export
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.export.write.arrangement import Place, to_float
 
 pytestmark = pytest.mark.builds

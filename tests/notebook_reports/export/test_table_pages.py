@@ -4,11 +4,11 @@ import re
 
 import pytest
 from tools.pages.page_words import in_the_text, text_of
-from tools.pages.pdf_text import PdfText
 
 from notebook_reports.display import Table
 from notebook_reports.export.exporters.choose import export
 from notebook_reports.export.model import plain
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.export.read.tables import from_data
 
 SAID = "The level of the lower tank follows that of the upper one, later and more slowly, and never faster than that. "

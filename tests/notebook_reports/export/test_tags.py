@@ -33,6 +33,14 @@ def test_a_note_stands_in_the_margin_and_leads_to_its_proof(make):
     assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
 
 
+def test_the_rows_of_one_place_each_keep_their_anchor(make):
+    rows = [["eq. 1", "$+3$"], ["eq. 1", "$x$"], ["eq. 1", "$y$"]]
+    table = Table(["place", "correct"], rows, "Misprints", groups=1, anchors=["first", "second", "third"])
+    nb = make.notebook("# T", "[proof](#second), [proof](#third)", make.code(table))
+    assert [make.html(nb).count(f'id="{name}"') for name in table.anchors] == [1, 1, 1]
+    assert export(nb, "pdf", name="a/b").startswith(b"%PDF")
+
+
 def test_a_question_to_try_stands_in_a_box(make):
     nb = make.notebook("# T", tagged(make, "**Try it.** Set `q` to $0.7$.", "try-it"))
     assert re.search(r'<div class="alert info" role="note"><p><strong>Try it.</strong>', make.html(nb))
@@ -63,3 +71,12 @@ def test_a_computed_sentence_is_prose_without_its_code(make):
     page = make.html(nb)
     assert "It needs <strong>8360</strong> W." in page and "prose(" not in page
     assert compare(nb, "T It needs 8360 W.").lost == []
+
+
+def test_a_proof_in_a_row_that_does_not_repeat_its_place_is_found(make):
+    rows = [["Figure 5.12", "one"], ["Figure 5.12", "other"]]
+    table = Table(["place", "correct"], rows, "Misprints", anchors=["misprint-one", "misprint-other"], groups=1)
+    nb = make.notebook("# T", tagged(make, "Wrong; [proof](#misprint-other).", "margin"), make.code(table))
+    assert make.html(nb).count('id="misprint-other"') == 1
+    assert make.typst(nb).count('label("misprint-other")') == 2
+    assert export(nb, "pdf", name="a/b").startswith(b"%PDF")

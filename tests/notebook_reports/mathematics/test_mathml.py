@@ -89,3 +89,15 @@ def test_tags_of_rows_stand_in_their_rows():
 @pytest.mark.parametrize("latex", [r"\text{<b>&amp;}", r"a<b>c", r"\tag{<1>}", r'\text{"}', r"\operatorname{a}"])
 def test_markup_in_the_formula_stays_text(latex):
     assert "<b>" not in latex_to_mathml(latex) and "<1>" not in latex_to_mathml(latex)
+
+
+@pytest.mark.parametrize("latex", ["s", "x + 1", "- T_d", "e^{-s T}", r"\omega_u t", r"\dot{x}", "1 + f(t)"])
+def test_brackets_that_need_not_grow_do_not_take_the_room_for_it(latex):
+    assert 'stretchy="true"' not in inner(rf"G{{\left({latex} \right)}}")
+
+
+@pytest.mark.parametrize(
+    "latex", [r"\frac{1}{s}", r"\sqrt{y}", r"\sum_k e_k", "x^{y^2}", r"\int e", r"1 + \frac{t}{T}"]
+)
+def test_brackets_round_what_is_tall_grow(latex):
+    assert inner(rf"\left({latex}\right)").count('stretchy="true"') == 2

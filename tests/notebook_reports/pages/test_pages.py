@@ -6,14 +6,15 @@ import re
 
 import pytest
 from tools.pages.page_words import in_the_text, text_of
-from tools.pages.pdf_text import PdfText
 
+from notebook_reports.export.read.pdf_text import PdfText
 from notebook_reports.ledger.row import LedgerRow
 from notebook_reports.memory import stamps
 from notebook_reports.pages import publish as pages
 from notebook_reports.pages.links import dead_links, read_links
 from notebook_reports.project.console import Console
-from notebook_reports.project.project import Notebook, project_at
+from notebook_reports.project.outline import read_outline
+from notebook_reports.project.project import Notebook, Project, UsageError, project_at
 
 pytestmark = pytest.mark.builds
 
@@ -233,6 +234,27 @@ def test_build_writes_them_and_names_what_is_unlisted(bench):
     assert outcome.code == 1
     assert "notebooks/essays/02.ipynb is in no part of notebooks/book.toml" in bench.said
     assert not {"index.html", "ledger.html", "loopbook.pdf"} & set(bench.reports())
+
+
+@pytest.mark.parametrize(
+    ("order", "ids"),
+    [
+        ([], ["a/one", "a/two", "a/zero"]),
+        (["zero"], ["a/zero", "a/one", "a/two"]),
+        (["two", "zero", "one"], ["a/two", "a/zero", "a/one"]),
+    ],
+)
+def test_a_part_has_the_order_that_it_names(tmp_path, order, ids):
+    def outlined(names):
+        text = f'title = "T"\n[[part]]\nfolder = "a"\ntitle = "A"\norder = {names!r}\n'
+        (tmp_path / "notebooks").mkdir(exist_ok=True)
+        (tmp_path / "notebooks" / "book.toml").write_text(text)
+        entries = [{"id": f"a/{name}", "folder": "a"} for name in ("one", "two", "zero")]
+        return [e["id"] for e in read_outline(Project(tmp_path, tmp_path / "c"), entries).entries]
+
+    assert outlined(order) == ids
+    with pytest.raises(UsageError, match="order names three; there are one, two, zero"):
+        outlined([*order, "three"])
 
 
 FIND = """

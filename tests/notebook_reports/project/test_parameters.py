@@ -179,3 +179,21 @@ def test_ranges_in_comments(comment, inside, outside):
     found = read_range(comment)
     assert all(found.holds(v) for v in inside)
     assert not any(found.holds(v) for v in outside)
+
+
+@pytest.mark.parametrize(
+    ("comment", "choices"),
+    [
+        ("s, {20, 25 … 40}", (20, 25, 30, 35, 40)),
+        ("s, {2, 3, ..., 5}", (2, 3, 4, 5)),
+        ("{0.1, 0.2 … 0.5}", (0.1, 0.2, 0.3, 0.4, 0.5)),
+        ("{-1, 0 … 2}", (-1, 0, 1, 2)),
+        ("{2, 5 … 6}", ()),
+        ("{2, 2 … 6}", ()),
+        ("{0, 1 … 10000000}", ()),
+        ("{12.5, 5, 8, 10}", (5, 8, 10, 12.5)),
+        ('{"PI", "P"}', ("P", "PI")),
+    ],
+)
+def test_lists_with_equal_steps(comment, choices):
+    assert read_range(comment).choices == choices

@@ -88,6 +88,38 @@ def open_loop(program: CProgram, number: Callable | None = None) -> list[tuple]:
     return rows
 
 
+class ProgramRegulator:
+    """The program's regulator with its state, one sample a step; also for `loopbook.response.simulation.simulate`.
+
+    anti_windup: undo the sum of the errors while the output is limited. first_difference: let the D term act on the
+    first sample too, from e(-1) = 0. total: the stored sum to start from. number: the arithmetic, as for `closed_loop`.
+    """
+
+    def __init__(
+        self,
+        program: CProgram,
+        number: Callable = float,
+        *,
+        anti_windup: bool = True,
+        first_difference: bool = False,
+        total: Number = 0,
+    ):
+        self._numbers, self._number, self._anti_windup = program.cast(number), number, anti_windup
+        self._started, self._total, self._last = first_difference, number(total), number(0)
+
+    def step(self, y: Number, reference: Number) -> Any:
+        """The control signal for the output y [y] and the set-point."""
+        p, e = self._numbers, reference - y
+        self._total = self._total + e
+        up, ui, ud = _function("regulator")(e, self._last, self._total, p["Kp"], p["Ti"], p["Td"], p["h"])
+        value = up + ui + (ud if self._started else self._number(0))
+        self._started, self._last = True, e
+        u = min(max(value, p["u_min"]), p["u_max"])
+        if u != value and self._anti_windup:
+            self._total = self._total - e
+        return u
+
+
 def closed_loop(
     program: CProgram,
     number: Callable | None = None,
@@ -102,26 +134,20 @@ def closed_loop(
     """Rows (t, x1, x2, u, w) of the closed loop after a step of the set-point.
 
     The row at time t is written before the regulator runs: its u is the one that acted *up to* t.
-    anti_windup: undo the sum of the errors while the output is limited. first_difference: let the D term act on the
-    first sample too, from e(-1) = 0. total, x1, u: the stored sum, the output and the control signal to start from
-    (default rest); `derivations.programs.positional_pid.bumpless_total` gives the sum for a start without a bump.
-    setpoint: w as a function of t [s], in place of the step.
+    anti_windup, first_difference: as for `ProgramRegulator`. total, x1, u: the stored sum, the output and the control
+    signal to start from (default rest); `derivations.programs.positional_pid.bumpless_total` gives the sum for a start
+    without a bump. setpoint: w as a function of t [s], in place of the step.
     """
     number = number or _single()
-    p, plant, regulator = program.cast(number), _function("plant"), _function("regulator")
-    t, x1, x2, u, total, last = number(0), number(x1), number(0), number(u), number(total), number(0)
-    started, rows = first_difference, []
+    p, plant = program.cast(number), _function("plant")
+    regulator = ProgramRegulator(
+        program, number, anti_windup=anti_windup, first_difference=first_difference, total=total
+    )
+    t, x1, x2, u, rows = number(0), number(x1), number(0), number(u), []
     while t <= p["t_end"]:
         w = number(setpoint(float(t))) if setpoint else p["level"]
         rows.append((t, x1, x2, u, w))
-        e = w - x1
-        total = total + e
-        up, ui, ud = regulator(e, last, total, p["Kp"], p["Ti"], p["Td"], p["h"])
-        value = up + ui + (ud if started else number(0))
-        started, last = True, e
-        u = min(max(value, p["u_min"]), p["u_max"])
-        if u != value and anti_windup:
-            total = total - e
+        u = regulator.step(x1, w)
         x1, x2 = plant(x1, x2, u, p["k"], p["T1"], p["T2"], p["h"])
         t = t + p["h"]
     return rows

@@ -41,10 +41,15 @@ class Swing(NamedTuple):
     switches: float
 
 
-def on_off(T: float, h: float, delay: float, **band: float) -> Swing:
+def relay_run(T: float, h: float, delay: float, **band: float) -> tuple[Simulation, OnOff]:
     """Five minutes of on-off control of a 200 km/h car at the set-point 50 km/h. delay [s]; band as for `OnOff`."""
     relay = OnOff(0.0, 10.0, **band)
-    run = simulate(car(T, 20.0, delay), relay, h, round(300 / h), reference=50.0)
+    return simulate(car(T, 20.0, delay), relay, h, round(300 / h), reference=50.0), relay
+
+
+def on_off(T: float, h: float, delay: float, **band: float) -> Swing:
+    """How the speed swings in the second half of `relay_run`."""
+    run, relay = relay_run(T, h, delay, **band)
     late = run.y[len(run.y) // 2 :]
     return Swing(late.min(), late.max(), late.mean(), relay.switches / 5)
 

@@ -1,9 +1,9 @@
-"""The drawings of pid-report as data: figures 3.1, 3.11, 4.1 and 4.4, whose pictures the text extraction has lost.
+"""The drawings of pid-report as data: figures 3.1, 3.11, 4.1, 4.4 and 5.6, whose pictures the text extraction has lost.
 
 Each is drawn from what the report says of it; nothing of its layout is the report's.
 """
 
-from loopbook.plots.block_diagram import Box, Diagram, Port, Sum, Tap, Wire
+from loopbook.plots.block_diagram import Box, Diagram, Port, Shape, Sum, Tap, Wire
 from loopbook.plots.circuit import Circuit, Piece
 
 CRUISE_CONTROL = Diagram(
@@ -104,4 +104,28 @@ RC_FILTER = Circuit(
     "Figure 4.4 of the report, drawn anew: the simplest low-pass filter, a resistor and a capacitor.",
     "A circuit. The input voltage drives a current through a resistor R into a capacitor C; the voltage over the "
     "capacitor is the output.",
+)
+
+RELAY_EXPERIMENT = Diagram(
+    {
+        "set point": Port(r"$y_{sp}$", 0, 0, "W"),
+        "comparison": Sum(0.8, 0),
+        "relay with hysteresis": Box("", 2.4, 0, 1.3, 0.9),
+        "relay's axis": Shape([(1.9, 0), (2.9, 0)], open=True, width=0.5),
+        "relay's loop": Shape([(2.25, -0.28), (2.25, 0.28), (2.55, 0.28), (2.55, -0.28)]),
+        "relay's lower level": Shape([(1.9, -0.28), (2.55, -0.28)], open=True),
+        "relay's upper level": Shape([(2.25, 0.28), (2.9, 0.28)], open=True),
+        "process": Box("$G(s)$", 4.6, 0, 1.1),
+        "output's tap": Tap(5.8, 0),
+        "output": Port("$y$", 6.3, 0, "E"),
+    },
+    [
+        Wire("set point", "comparison"),
+        Wire("comparison", "relay with hysteresis", "$e$"),
+        Wire("relay with hysteresis", "process", "$u$"),
+        Wire("process", "output's tap", arrow=False),
+        Wire("output's tap", "output"),
+        Wire("output's tap.S", "comparison.S", sign="−", via=-0.85),
+    ],
+    "Figure 5.6 of the report, drawn anew: a relay with hysteresis takes the place of the regulator.",
 )

@@ -20,8 +20,7 @@ def _gain(program: code.Program, symbol: Symbol) -> Eq:
 
 
 def _assigned(program: code.Program, symbol: Symbol) -> Eq:
-    (value,) = (a.value for a in program.before + program.after if a.target == symbol)
-    return equality(symbol, value)
+    return equality(symbol, program.assigned(symbol))
 
 
 @EQUATIONS("4.1")

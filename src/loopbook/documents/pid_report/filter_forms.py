@@ -4,17 +4,19 @@ Each form is an equation of `derivations.pid.pid_updates` or `derivations.pid.ex
 sample.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
 import numpy as np
+from sympy import Eq, Integer, lambdify
 
 from derivations.algebra import differences
 from derivations.algebra.differences import at, by_signals
 from derivations.pid import exact_filters as exact
 from derivations.pid import pid_updates as term
 from derivations.pid import rc_filter
+from derivations.pid.pid_laws import K, Td
 
 FILTERS = ("backward (4.9)", "Tustin", "exact, newest y", "exact, straight y")
 
@@ -22,8 +24,6 @@ FILTERS = ("backward (4.9)", "Tustin", "exact, newest y", "exact, straight y")
 @cache
 def _gains(name: str) -> dict[str, Any]:
     """Gains (pole, on the newest y, on the y before) as functions of h and T_f."""
-    import sympy
-
     if name not in FILTERS:
         raise ValueError(f"{name!r} is not a form of the filter; one of {', '.join(FILTERS)}")
     derive: dict[str, Callable[[], Any]] = {
@@ -35,7 +35,7 @@ def _gains(name: str) -> dict[str, Any]:
     gains = by_signals(derive[name]().rhs)
     symbols = (differences.h, rc_filter.Tf)
     samples = {"pole": at("y_f", -1), "now": at("y"), "before": at("y", -1)}
-    return {key: sympy.lambdify(symbols, gains.get(s, sympy.Integer(0)), "math") for key, s in samples.items()}
+    return {key: lambdify(symbols, gains.get(s, Integer(0)), "math") for key, s in samples.items()}
 
 
 def pole(name: str, h: float, Tf: float) -> float:
@@ -69,3 +69,15 @@ def time_constant(name: str, h: float, Tf: float) -> float:
     """The continuous time constant that has the same pole: -h/log(pole) [s]; NaN for a pole that is not positive."""
     p = pole(name, h, Tf)
     return -h / np.log(p) if p > 0 else float("nan")
+
+
+def newest_gain(law: Eq, ratios: Iterable[float]) -> list[float]:
+    """What a step of the measurement makes at once of a filtered derivative, in units of K Td/Tf, by h/Tf.
+
+    law: a recursion for D_f, of `pid_updates` or `exact_filters`.
+
+    >>> newest_gain(term.filtered_derivative().full(), [1.0])
+    [0.5]
+    """
+    gain = -by_signals(law.rhs)[at("y")].subs({K: 1, Td: 1, rc_filter.Tf: 1})
+    return [float(gain.subs(differences.h, ratio)) for ratio in ratios]

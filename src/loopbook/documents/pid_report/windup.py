@@ -3,6 +3,7 @@
 The process is 1/(s + 1)^2, sampled every h seconds. Source of the questions: pid-report, sections 4.2.3 to 4.2.6.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +17,7 @@ from loopbook.response.simulation import Simulation, simulate
 
 PROCESS = Process([1.0], [1.0, 2.0, 1.0])
 H = 0.1
+FAR = {"u_low": -100.0, "u_high": 100.0}
 
 
 def settings(**more: Any) -> PidSettings:
@@ -42,9 +44,12 @@ def watched(controller: Any) -> Observed:
     return Observed(controller, [])
 
 
-def unreachable(anti_windup: str, Tt: float | None = None, seconds: float = 40.0) -> tuple[Simulation, np.ndarray]:
-    """Set-point 1.8 for 15 s, more than the 1.5 that the process can reach, then 1. The run and I over time."""
-    observed = watched(Pid(settings(anti_windup=anti_windup, Tt=Tt)))
+def unreachable(anti_windup: str, seconds: float = 40.0, **more: float) -> tuple[Simulation, np.ndarray]:
+    """Set-point 1.8 for 15 s, more than the 1.5 that the process can reach, then 1. The run and I over time.
+
+    more: other `settings`, in all of these studies.
+    """
+    observed = watched(Pid(settings(anti_windup=anti_windup, **more)))
     wanted = lambda t: 1.8 if t < 15 else 1.0  # noqa: E731
     run = simulate(PROCESS, observed, H, round(seconds / H), reference=wanted)
     return run, np.array(observed.integral)
@@ -56,9 +61,9 @@ def recovery(run: Simulation, after: float = 15.0, wanted: float = 1.0, within: 
     return float(outside[-1] - after) if len(outside) else 0.0
 
 
-def spike(anti_windup: str, Tt: float | None = None, size: float = 1.0) -> tuple[Simulation, np.ndarray]:
+def spike(anti_windup: str, size: float = 1.0, **more: float) -> tuple[Simulation, np.ndarray]:
     """A steady loop at 1 with one false sample, ``size`` too high, at 1 s. The run and I over time."""
-    start = settings(anti_windup=anti_windup, Tt=Tt)
+    start = settings(anti_windup=anti_windup, **more)
     p24 = start.K * start.Td / (start.Tf + start.h)
     observed = watched(Pid(start, I=1.0, x=p24))
     noise = np.zeros(121)
@@ -92,12 +97,12 @@ def locking() -> tuple[int, int]:
     return sum(not settles("4.7", one) for one in sound), len(sound)
 
 
-def transfer(way: str, error: float, seconds: float = 20.0) -> float:
+def transfer(way: str, error: float, seconds: float = 20.0, **more: float) -> float:
     """The step of the output at the change from manual to automatic, with a constant error during manual.
 
-    way: "exact" or "tracking". The controller has K = 4, Ti = 2 s, Tt = sqrt(Ti Td) and no limits in reach.
+    way: "exact" or "tracking". The controller has no limits in reach.
     """
-    pid = Pid(settings(u_low=-100.0, u_high=100.0))
+    pid = Pid(settings(**{**more, **FAR}))
     pid.manual(1.0)
     for _ in range(round(seconds / H)):
         pid.step(1.0 - error, 1.0)
@@ -108,8 +113,7 @@ def transfer(way: str, error: float, seconds: float = 20.0) -> float:
 class _Changing:
     """A controller whose settings change at 1 s; it remembers its integral part."""
 
-    def __init__(self, bumpless: str, new: dict[str, float]):
-        start = settings(u_low=-100.0, u_high=100.0)
+    def __init__(self, bumpless: str, new: Mapping[str, float], start: PidSettings):
         self.pid = Pid(start, I=1.0, x=start.K * start.Td / (start.Tf + start.h))
         self.bumpless, self.new = bumpless, new
         self.integral: list[float] = []
@@ -122,9 +126,9 @@ class _Changing:
         return u
 
 
-def change(bumpless: str, **new: float) -> tuple[Simulation, np.ndarray]:
+def change(bumpless: str, new: Mapping[str, float], **more: float) -> tuple[Simulation, np.ndarray]:
     """A steady loop at 1 in which settings change at 1 s; bumpless as for `Pid.change`. The run and I over time."""
-    controller = _Changing(bumpless, new)
+    controller = _Changing(bumpless, new, settings(**{**more, **FAR}))
     run = simulate(PROCESS, controller, H, 150, reference=1.0, u_before=1.0)
     return run, np.array(controller.integral)
 
@@ -142,11 +146,15 @@ def recovery_of_pi(Tt: float) -> float:
     return recovery(simulate(PROCESS, pi, H, 500, reference=wanted))
 
 
-def misprinted(unit: float | None) -> Simulation:
+def misprinted(unit: float | None, **more: float) -> Simulation:
     """A set-point step with the program of figure 4.13 and p4 = K Td h, as eq. 4.17 is read; None: with the right p4.
 
-    unit: the unit of time [s] in which the controller's times are counted. The time axis of the run is in seconds.
+    unit: the unit of time [s] in which the controller's times are counted. more: other `settings`. The time axis of
+    the run is in seconds.
+
+    >>> [round(float(misprinted(unit).y[-1]), 2) for unit in (None, 0.05)]
+    [1.0, 6.24]
     """
-    free = settings(u_low=-9.0, u_high=9.0)
+    free = settings(**{**more, "u_low": -9.0, "u_high": 9.0})
     wrong = {} if unit is None else {"p_4": free.K * (free.Td / unit) * (free.h / unit)}
-    return simulate(PROCESS, ProgramController("4.13", free, gains=wrong), H, 200, reference=1.0)
+    return simulate(PROCESS, ProgramController("4.13", free, gains=wrong), free.h, round(20 / free.h), reference=1.0)

@@ -41,9 +41,10 @@ from notebook_reports.export.read.html import read_html
 from notebook_reports.export.read.markdown import read_markdown
 from notebook_reports.export.read.outputs import read_outputs
 from notebook_reports.export.read.reading import Reading, anchor_of, flow, trim
+from notebook_reports.export.read.solutions import GIVEN, LAST, arranged
 from notebook_reports.export.read.terminal import visible
 
-NO_INPUT = {"remove-input", "remove_input"}
+NO_INPUT = {"remove-input", "remove_input", GIVEN}
 NO_OUTPUT = {"remove-output", "remove_output"}
 NO_CELL = {"remove-cell", "remove_cell"}
 FOLDED_INPUT = {"hide-input", "hide_input", "hide-cell", "hide_cell"}
@@ -77,18 +78,20 @@ def read(
     mode: str = "strict",
     root: Path | None = None,
     leave_out: frozenset[str] = frozenset(),
+    solutions: str = LAST,
 ) -> Report:
     """Read a notebook (nbformat 4). Raises ExportError that names every cell which holds what no page can show.
 
     The title is the one given, else the first top heading, else the last part of `name`. name: "folder/notebook", as
     links from other notebooks call it. mode: one of `mends.MODES`; mended, a report always comes. folder:
     where relative images are looked up; root: below which they have to lie, default the folder. leave_out: of `PARTS`.
+    solutions: see `arranged`.
     """
     reading = Reading(folder, document, strict_alt, mode == "mend", root)
     sources = _markdown_sources(notebook)
     reading.footnotes, reading.note_references = footnotes(sources), references(sources)
     cells = []
-    for number, cell in enumerate(notebook["cells"], start=1):
+    for number, cell in arranged(notebook, solutions):
         reading.cell = number
         reading.attachments = cell.get("attachments") or {}
         blocks = _cell(cell, reading, _language(notebook), leave_out)

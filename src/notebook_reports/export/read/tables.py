@@ -31,7 +31,7 @@ def from_data(data: dict[str, Any]) -> Grid:
         above = row
     for y, name in enumerate(data.get("anchors", ()), start=1):
         if name:
-            first = next(cell for cell in cells if (cell.x, cell.y) == (0, y))
+            first = next(cell for cell in cells if cell.y == y and not cell.again)  # one that is seen
             first.children.insert(0, Anchor(name))
     notes = [read_inline(note) for note in data.get("notes", ())]
     caption = read_inline(data.get("caption", ""))

@@ -22,14 +22,18 @@ _NAME = b"NewComputerModernMath-Regular"
 _PRIMES = frozenset("′″‴⁗‵")
 """These alone need the shapes for scripts: at their usual size they stand too high in one."""
 _MATH = re.compile(r"<math\b.*?</math>", re.DOTALL)
+_ROOT = re.compile(r"<m(sqrt|root)\b")
+"""A root is an element; the browser draws its sign, which stands in no text."""
 
 
 def font_face(page: str) -> str:
     """The CSS rule that brings the font for the formulas of an HTML page; nothing for a page without any."""
-    formulas = "".join(re.sub(r"<[^>]*>", "", found) for found in _MATH.findall(page))
+    found = _MATH.findall(page)
+    formulas = "".join(re.sub(r"<[^>]*>", "", formula) for formula in found)
     if not formulas:
         return ""
-    data = _part(frozenset(unescape(formulas)) - {"\n", "\t"} | frozenset("0123456789 "))
+    roots = frozenset("√" if any(map(_ROOT.search, found)) else "")
+    data = _part(frozenset(unescape(formulas)) - {"\n", "\t"} | frozenset("0123456789 ") | roots)
     if not data:
         return ""
     return f'@font-face {{ font-family: "{FAMILY}"; src: url(data:font/otf;base64,{data}) format("opentype"); }}'

@@ -164,7 +164,7 @@ def _node(node: n.Node, cls: str, script: bool, spaces: tuple[float, float] = (0
             body = _row(node.body, script)
             return f"<msqrt>{body}</msqrt>" if node.index is None else f"<mroot>{body}{_row(node.index, True)}</mroot>"
         case n.Fenced():
-            return _fenced(node.left, _row(node.items, script), node.right)
+            return _fenced(node.left, _row(node.items, script), node.right, not _is_low(node.items))
         case n.Middle():
             return _mo(node.char, "rel", (0.0, 0.0), stretchy=True) if node.char else "<mrow></mrow>"
         case n.Big():
@@ -227,9 +227,34 @@ def _symbol(node: n.Symbol, cls: str, spaces: tuple[float, float]) -> str:
     return _mo(node.char, cls, spaces, extra=' largeop="true"' + _MOVABLE[node.limits] if node.large else "")
 
 
-def _fenced(left: str, body: str, right: str) -> str:
-    opening = _mo(left, "open", (0.0, 0.0), stretchy=True) if left else ""
-    closing = _mo(right, "close", (0.0, 0.0), stretchy=True) if right else ""
+def _is_low(items: list[n.Node]) -> bool:
+    """Is a list no taller than a letter with scripts? Delimiters round it have their usual size.
+
+    One that may grow is as wide as its largest shape in a browser, so that it would stand in a gap.
+    """
+    for item in items:
+        match item:
+            case n.Symbol():
+                low = not item.large
+            case n.Number() | n.Word() | n.Space():
+                low = True
+            case n.Group() | n.Classed() | n.Fenced():
+                low = _is_low(item.items)
+            case n.Accent():
+                low = not item.wide and _is_low(item.body)
+            case n.Scripts():
+                parts = [item.base, *(item.sub or ()), *(item.sup or ())]
+                low = not any(isinstance(part, n.Scripts) and part.sup for part in parts) and _is_low(parts)
+            case _:
+                low = False
+        if not low:
+            return False
+    return True
+
+
+def _fenced(left: str, body: str, right: str, grows: bool = True) -> str:
+    opening = _mo(left, "open", (0.0, 0.0), stretchy=grows) if left else ""
+    closing = _mo(right, "close", (0.0, 0.0), stretchy=grows) if right else ""
     return f"<mrow>{opening}{body}{closing}</mrow>"
 
 

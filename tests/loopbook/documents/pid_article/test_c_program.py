@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -10,9 +11,13 @@ import pytest
 import sympy as sp
 
 from derivations.programs import positional_pid as law
+from loopbook.controllers.pid_forms import PidStandard
 from loopbook.documents.open import printed as load
 from loopbook.documents.pid_article import c_program
 from loopbook.documents.pid_article.c_program import CProgram
+from loopbook.loop.without_dead_time import reference_to_output
+from loopbook.process.construct import tf
+from loopbook.response.simulation import simulate
 
 COMPILER = next((c for c in (os.environ.get("CC", ""), "cc", "gcc", "clang") if c and shutil.which(c)), None)
 
@@ -100,3 +105,12 @@ def test_impossible_numbers_are_refused(program, change, words):
 def test_type_name_is_checked(program):
     with pytest.raises(ValueError, match="float or double"):
         c_program.c_source(program, "half")
+
+
+def test_the_regulator_on_the_exact_plant_tends_to_the_continuous_loop(program):
+    """Without limits and with a short step, derivative on the measurement in effect: the first sample has none."""
+    wide = replace(program, u_min=-1000, u_max=1000)
+    plant, pid = tf(3, [[2, 1], [3, 1]]), PidStandard(*(float(x) for x in (wide.Kp, wide.Ti, wide.Td)), c=0.0)
+    run = simulate(plant, c_program.ProgramRegulator(wide), 0.01, 1000, reference=1.0)
+    exact = reference_to_output(plant, pid).step(run.t)
+    assert abs(run.y - exact).max() < 0.01

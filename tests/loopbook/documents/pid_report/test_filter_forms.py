@@ -3,7 +3,16 @@
 import numpy as np
 import pytest
 
-from loopbook.documents.pid_report.filter_forms import FILTERS, error, filtered, pole, response, time_constant
+from derivations.pid import exact_filters, pid_updates
+from loopbook.documents.pid_report.filter_forms import (
+    FILTERS,
+    error,
+    filtered,
+    newest_gain,
+    pole,
+    response,
+    time_constant,
+)
 
 
 @pytest.mark.parametrize(("name", "order"), [("backward (4.9)", 1), ("Tustin", 2), ("exact, straight y", 2)])
@@ -31,3 +40,11 @@ def test_poles():
     assert np.isnan(time_constant("Tustin", 3.0, 1.0))
     with pytest.raises(ValueError, match="'forward' is not a form of the filter; one of backward"):
         pole("forward", 1.0, 1.0)
+
+
+def test_a_step_of_the_measurement_moves_the_backward_derivative_least():
+    """Exact for a held y it moves by K Td/Tf at once, whatever h is."""
+    held = newest_gain(exact_filters.filtered_derivative_held(), [0.1, 1.0])
+    backward = newest_gain(pid_updates.filtered_derivative().full(), [0.1, 1.0])
+    assert held == pytest.approx([1.0, 1.0])
+    assert backward == pytest.approx([1 / 1.1, 0.5])

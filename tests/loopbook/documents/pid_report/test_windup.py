@@ -23,7 +23,7 @@ def test_every_method_prevents_it(rule):
 def test_one_false_sample_throws_the_integral_by_h_over_tt():
     """The change of I is h/Tt (u - v); what e adds is K h/Ti times the false error."""
     for Tt in (0.1, 0.3, 2.0):
-        _, I = windup.spike("tracking", Tt)
+        _, I = windup.spike("tracking", Tt=Tt)
         s = windup.settings()
         p2 = s.K + s.K * s.Td / (s.Tf + s.h)
         v = 1.0 - p2 * 1.0
@@ -49,9 +49,9 @@ def test_transfer():
 
 @pytest.mark.parametrize("new", [{"K": 5.0}, {"Td": 0.8}, {"Tf": 0.3}, {"b": 0.5}, {"Ti": 1.0}])
 def test_changes_in_a_steady_loop(new):
-    exact, _ = windup.change("exact", **new)
+    exact, _ = windup.change("exact", new)
     assert abs(exact.y - 1).max() < 1e-9
-    printed, _ = windup.change("integral", **new)
+    printed, _ = windup.change("integral", new)
     s, after = windup.settings(), windup.settings(**new)
     jump = (s.K * s.Td / (s.Tf + s.h) - after.K * after.Td / (after.Tf + after.h)) * 1.0
     assert np.isclose(printed.u[10] - printed.u[9], jump)

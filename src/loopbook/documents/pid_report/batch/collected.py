@@ -15,9 +15,10 @@ BEYOND = 1 + 1e-9
 
 class Batch:
     """The studied batch as arrays over its processes: tau, kappa, what derivative action gains, and by rule the
-    settings over the optimum (`over`) and the joint M (`joint`)."""
+    settings over the optimum (`over`) and the joint M (`joint`). divisor: of the derivative time, for its filter."""
 
-    def __init__(self, studies: Sequence[MemberStudy], printed: PrintedDocument):
+    def __init__(self, studies: Sequence[MemberStudy], printed: PrintedDocument, divisor: float = 10.0):
+        self.divisor = divisor
         self.studies, self.said, self.values = tuple(studies), printed.claims.__getitem__, printed.values
         self.tau = np.array([s.tau for s in studies]) * BEYOND
         self.kappa = np.array([s.kappa for s in studies]) * BEYOND
@@ -42,6 +43,11 @@ class Batch:
     def ziegler_nichols(self) -> np.ndarray:
         """The joint M of the Ziegler-Nichols PID step rule on the stable processes."""
         return robust.ziegler_nichols_joint(self.studies)
+
+    @cached_property
+    def filtered(self) -> dict[str, np.ndarray]:
+        """The PID step rule with a derivative filter: `robustness.joint_with_filter` of the stable processes."""
+        return robust.joint_with_filter(self.studies, self.divisor)
 
     def side(self, id: str, values: np.ndarray, limit: str) -> np.ndarray:
         """The processes that a statement speaks of: those on its side of its limit."""

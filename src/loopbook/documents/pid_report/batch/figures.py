@@ -24,26 +24,25 @@ NAMES = {"K": "$K/K_{MIGO}$", "Ti": "$T_i/T_{i,MIGO}$", "Td": "$T_d/T_{d,MIGO}$"
 
 
 def ratio_figure(ratios: Ratios, parameters: Sequence[str], title: str, band: float = 0.15) -> "Figure":
-    """One panel a parameter: its ratio to the optimum, grey band 1 +- `band`, families by marker."""
+    """One panel a parameter, side by side: its ratio to the optimum, grey band 1 +- `band`, families by marker."""
     import matplotlib.pyplot as plt
 
-    rows = len(parameters)
-    fig, axes = plt.subplots(rows, 1, figsize=(6.3, 1.9 * rows + 0.4), sharex=True, squeeze=False, layout="constrained")
-    for axis, name in zip(axes[:, 0], parameters, strict=True):
+    fig, axes = plt.subplots(1, len(parameters), figsize=(6.3, 3.4), squeeze=False, layout="constrained")
+    for axis, name in zip(axes[0], parameters, strict=True):
         for family in range(1, 10):
             chosen = [m.family == family for m in ratios.members]
             across, up = ratios.tau[chosen], getattr(ratios, name)[chosen]
             look = {"marker": MARKERS[family - 1], "color": COLOURS[(family - 1) % len(COLOURS)]}
             look["label"] = f"${FORMULAS[family]}$"
-            axis.plot(across, up, linestyle="none", markersize=4, markerfacecolor="none", **look)
+            axis.plot(across, up, linestyle="none", markersize=3.5, markerfacecolor="none", **look)
         axis.axhspan(1 - band, 1 + band, color="0.9", zorder=0)
         values = getattr(ratios, name)
         if values.max() > DECADES * values.min():
             axis.set_yscale("log")
-        axis.set_ylabel(NAMES[name])
+        axis.set_title(NAMES[name], fontsize="medium")
         axis.grid(True, linewidth=0.4, alpha=0.5)
-    axes[0, 0].set_title(title)
-    axes[-1, 0].set_xlabel(r"relative dead time $\tau$ [1]")
+        axis.set_xlabel(r"rel. dead time $\tau$ [1]")
+    fig.suptitle(title)
     legend_below(fig, axes[0, 0])
     return fig
 

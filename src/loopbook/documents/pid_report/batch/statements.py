@@ -51,7 +51,7 @@ def derivative(b: Batch) -> Statements:
 
 def derivative_filter(b: Batch) -> Statements:
     """Section 5.3.2: the PID step rule with a filter of Td/10, with and without adjusted data."""
-    found = robust.joint_with_filter(b.studies)
+    found = b.filtered
     mended = np.mean(found["M adjusted"] <= found["M filter"])
     less = 1 / found["M filter"] - 1 / found["M"]
     worse = np.mean([b.said("filter-costs-robustness").agrees("robustness", x) for x in less])

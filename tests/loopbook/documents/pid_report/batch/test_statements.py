@@ -100,3 +100,10 @@ def test_joint_M_bounds_both_sensitivities_and_is_attained():
 
 def test_joint_M_of_an_unstable_loop_is_infinite():
     assert math.isinf(joint_M(Process((1.0,), (1.0, 3.0, 3.0, 1.0)), PidStandard(K=20.0)))
+
+
+def test_a_filter_that_is_no_filter_changes_no_loop(whole):
+    some = [s for s in whole.studies if not s.member.integrates][::12]
+    found = says.Batch(some, load("pid-report"), divisor=1e6).filtered
+    assert found["M filter"] == pytest.approx(found["M"], rel=1e-3)
+    assert found["ki"] == pytest.approx(np.ones(len(some)), abs=1e-4)

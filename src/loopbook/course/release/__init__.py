@@ -1,0 +1,1 @@
+"""From a sheet and a roster to what each student and the teacher get."""
