@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from loopbook.design import tables
 from loopbook.design.study import Study
 from loopbook.identification.choice import identify
 from loopbook.identification.closed_loop import closed_steps, fit_closed, noise_model, recognised
@@ -72,6 +73,7 @@ def test_a_log_of_sp_pv_op_is_recognised_and_designed_for(tmp_path):
     read = read_record(file)
     assert np.allclose(read.setpoint, record.setpoint) and recognised(read)
     study = Study(file)
+    assert tables.graphical(study).rows[0][0].startswith("no step that can be read")
     assert "from 2 set-point steps by prediction error" in study.identified.reasons[0]
     assert study.model.gain == pytest.approx(2.0, rel=0.03) and study.model.delay == pytest.approx(4.0, abs=0.3)
     assert study.identified.chosen.settled == pytest.approx((320 * 0.5 - 4) / 20, rel=0.1)
