@@ -12,7 +12,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling prove-course interop prove-tuner browser lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-identification prove-scaling prove-course interop prove-tuner browser lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -51,6 +51,9 @@ notebooks: $(READY) ## open JupyterLab on the project's kernel
 
 prove-design: $(READY) ## design for 300 synthetic records and run every loop on its true process
 	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300
+
+prove-identification: $(READY) ## identify 50 simulated plants of each kind: the stated intervals hold the truth in nine of ten
+	@$(BIN)/python tests/loopbook/identification/acceptance/prove_identification.py 50
 
 docs: all $(VENV)/ready-docs ## the documentation as a site that works offline: build/site/index.html
 	@PYTHONPATH=tools $(BIN)/python -m docs_site.build
