@@ -20,6 +20,11 @@ def test_a_long_text_is_cut_and_says_so():
     assert len(text) < 65_536 and "cut; " in text
 
 
+def test_the_run_with_the_pictures_is_linked_after_the_fence():
+    lines = comment("[x](y)", "https://example.org/a/b/actions/runs/7").split("\n")
+    assert lines[-3] == "```" and lines[-1].endswith("of [this run](https://example.org/a/b/actions/runs/7).")
+
+
 @pytest.mark.parametrize("text", ["", "0", "12 --repo x", "$(id)", "1\n2", "-1", "1" * 12])
 def test_a_number_is_digits_and_nothing_else(text):
     with pytest.raises(ValueError):
