@@ -74,6 +74,6 @@ def test_a_review_builds_both_states_and_compares_their_pages():
     (review,) = [flow for name, flow in zip(FILES, ALL, strict=True) if name.stem == "review"]
     commands = [step["run"] for step in review["jobs"]["difference"]["steps"] if "run" in step]
     assert commands[0] == 'git worktree add ../base "$BASE" && make -C ../base'
-    assert commands[1] == 'make difference REF="$BASE" OLD=../base/reports'
+    assert commands[1] == 'make difference REF="$BASE" OLD=../base/reports ACCEPT=1'
     recipe = (ROOT / "Makefile").read_text(encoding="utf-8").partition("\ndifference:")[2].partition("\n\n")[0]
     assert '--reports "$(OLD)" --pictures build/difference/pages' in recipe

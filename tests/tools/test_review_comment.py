@@ -1,12 +1,14 @@
 """What a change's own build wrote is quoted in a comment, never believed."""
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from review_comment import LONGEST, comment, number
 
 
 @given(st.text(alphabet=st.sampled_from("`~<>@#[]()!|\n\\ ab\u202e\x1b\r"), max_size=200))
+@example("```\n@all [x](y)\n````\n")
+@example("`````")
 def test_nothing_inside_closes_the_fence(text):
     lines = comment(text).split("\n")
     fence = lines[2].removesuffix("text")
