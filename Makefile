@@ -58,10 +58,14 @@ prove-identification: $(READY) ## identify 50 simulated plants of each kind: the
 docs: all $(VENV)/ready-docs ## the documentation as a site that works offline: build/site/index.html
 	@PYTHONPATH=tools $(BIN)/python -m docs_site.build
 
-difference: all $(VENV)/ready-docs ## what changed in ledger and pages since a commit: make difference REF=main [OLD=its reports]
+difference: $(READY) $(VENV)/ready-docs ## what changed in ledger and pages since a commit: make difference REF=main [OLD=its reports] [ACCEPT=1]
 	@mkdir -p build/difference
+	@: > build/difference/difference.txt
+	@$(BIN)/loopbook --root . build $(jobs) $(if $(ACCEPT),--accept) > build/difference/build.txt 2>&1 || { \
+	    echo "The build of this state fails." && sed -n '/ failed:$$/,$$p' build/difference/build.txt && echo; \
+	    } > build/difference/difference.txt
 	@$(BIN)/loopbook --root . diff "$(or $(REF),HEAD)" $(if $(OLD),--reports "$(OLD)" --pictures build/difference/pages) \
-	    > build/difference/difference.txt || test $$? -eq 1
+	    >> build/difference/difference.txt || test $$? -eq 1
 	@cat build/difference/difference.txt
 
 dist: all ## wheel, source distribution and the reports, as a release has them: build/dist
