@@ -122,13 +122,14 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
             _refuse(diagnosis.below_sample(record, best) if best.fit >= POOREST_FIT else "")
             _refuse(diagnosis.not_at_rest(record, steps))
             _refuse(diagnosis.disturbed(best, GOOD_FIT))
-            _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
+            _refuse(diagnosis.not_determined(list(fits.values()) if best.fit >= POOREST_FIT else []))
             raise RecordError(
                 f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of "
                 "it; was something else disturbing the process, or is the response not that of a step?"
             )
         chosen = _simplest(fits, criteria, usable)
         _refuse(diagnosis.drift_explains(record, fits[chosen]))
+        _refuse(diagnosis.not_determined(_of_other_kind(fits, criteria, chosen)))
     else:
         chosen = FIRST_ORDER
         fits[chosen] = directions.worse
@@ -150,6 +151,14 @@ def _simplest(fits: dict[Structure, Fit], criteria: dict[Structure, float], usab
     least = min(criteria[s] for s in usable)
     near = [s for s in usable if criteria[s] - least <= CLEARLY_BETTER]
     return min(near, key=lambda s: (len(fits[s].parameters), criteria[s]))
+
+
+def _of_other_kind(fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure) -> list[Fit]:
+    """The fits that explain the record clearly better than the chosen one and settle where that integrates, or do not
+    where it does: an undetermined lag in place of another is a matter of degree, this one of where the output ends.
+    """
+    clearly = criteria[chosen] - CLEARLY_BETTER
+    return [fits[s] for s in fits if s.integrating != chosen.integrating and criteria[s] < clearly]
 
 
 def _started_off_rest(
