@@ -38,7 +38,7 @@ class _Late(ModuleType):
 
 
 def late(module: str) -> Any:
-    """A module that is imported when something of it is first asked for: what SymPy takes half a second to be loaded for.
+    """A module that is imported when something of it is first asked for, such as one that loads SymPy.
 
     >>> late("math").gcd(12, 18)
     6

@@ -4,8 +4,10 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import Any
 
+from derivations import tuning as folder
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
 from loopbook.lazy import late
@@ -112,7 +114,8 @@ def _function(text: str) -> Callable[..., Any]:
 
 def published() -> list[TuningRule]:
     """Every published rule as one that runs, module by module."""
-    return [_as_tuning_rule(head, plain) for head, plain in _catalogue()]
+    added = [path for path in folder.__path__ if Path(path) != Path(folder.__file__).parent]
+    return [_as_tuning_rule(head, plain) for head, plain in _catalogue(*added)]
 
 
 def _as_tuning_rule(head: Mapping[str, Any], plain: Mapping[str, Any]) -> TuningRule:
@@ -122,7 +125,7 @@ def _as_tuning_rule(head: Mapping[str, Any], plain: Mapping[str, Any]) -> Tuning
     names += ["extrapolate"] * bool(plain["extrapolates"])
     rule: list[Published] = []
 
-    def settings(data: ProcessData, **options: float) -> Tuning:
+    def settings(data: ProcessData, **options: Any) -> Tuning:
         if not rule:
             rule.append(Published.read(plain))
         return compute(rule[0], data, **options)
@@ -139,8 +142,8 @@ def _as_tuning_rule(head: Mapping[str, Any], plain: Mapping[str, Any]) -> Tuning
 
 
 @printed()
-def _catalogue() -> list[list[dict[str, Any]]]:
-    """Every rule as plain data: what stands in tables, and what computes."""
+def _catalogue(*added: str) -> list[list[dict[str, Any]]]:
+    """Every rule as plain data: what stands in tables, and what computes. added: folders beside the package's own."""
     return [[_head(rule), _plain(rule)] for rule in derived.catalogue().values()]
 
 
