@@ -151,7 +151,8 @@ def _apply(
     ]
     repeat += ["--page"] * page + ["--code"] * code
     ready = "loopbook.design.ready:derive"
-    leave_out = frozenset({"detail"} if page else ())
+    no_prose = {*chosen} <= {"json", *PROGRAMS}
+    leave_out = frozenset({"detail"} if page or no_prose else ())
     return apply(
         project,
         design_notebook(),

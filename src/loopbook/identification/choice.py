@@ -129,7 +129,7 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
             )
         chosen = _simplest(fits, criteria, usable)
         _refuse(diagnosis.drift_explains(record, fits[chosen]))
-        _refuse(diagnosis.not_determined(_of_other_kind(fits, criteria, chosen)))
+        _refuse(diagnosis.not_determined(_settling(record, fits, criteria, chosen)))
     else:
         chosen = FIRST_ORDER
         fits[chosen] = directions.worse
@@ -153,12 +153,19 @@ def _simplest(fits: dict[Structure, Fit], criteria: dict[Structure, float], usab
     return min(near, key=lambda s: (len(fits[s].parameters), criteria[s]))
 
 
-def _of_other_kind(fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure) -> list[Fit]:
-    """The fits that explain the record clearly better than the chosen one and settle where that integrates, or do not
-    where it does: an undetermined lag in place of another is a matter of degree, this one of where the output ends.
+def _settling(
+    record: Record, fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure
+) -> list[Fit]:
+    """The simplest fit that settles within the record and explains it clearly better than a chosen integrating one.
+
+    An undetermined lag in place of another is a matter of degree, this one of where the output ends. A lag longer than
+    the record is an integrator for it.
     """
-    clearly = criteria[chosen] - CLEARLY_BETTER
-    return [fits[s] for s in fits if s.integrating != chosen.integrating and criteria[s] < clearly]
+    if not chosen.integrating:
+        return []
+    clearly, length = criteria[chosen] - CLEARLY_BETTER, float(np.ptp(record.time))
+    found = [f for s, f in fits.items() if not s.integrating and criteria[s] < clearly and sum(f.lags) < length]
+    return sorted(found, key=lambda fit: len(fit.parameters))[:1]
 
 
 def _started_off_rest(
