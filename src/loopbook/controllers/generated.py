@@ -10,7 +10,7 @@ from functools import cache, wraps
 from typing import Any
 
 from loopbook.lazy import late
-from loopbook.printed.store import printed
+from loopbook.printed.store import kept_for
 
 laws, code = late("derivations.pid.pid_laws"), late("derivations.programs.pid_code")
 bumpless = late("derivations.programs.bumpless")
@@ -45,7 +45,7 @@ def _function(text: Callable[..., str]) -> Callable[..., Callable]:
 
 
 @_function
-@printed()
+@kept_for()
 def gains() -> str:
     """(K, Ti, Td, Tf, b, c, h, Tt) -> p_1 ... p_6, p_24 and c, as in eqs 4.3, 4.4, 4.11, 4.12, 4.17 to 4.19.
 
@@ -59,7 +59,7 @@ def gains() -> str:
 
 
 @_function
-@printed()
+@kept_for()
 def parallel_gains() -> str:
     """(P, I, D, Tf, b, c, h, Tt) -> the same, with K/Ti = I and K Td = D, so that each may be zero; I = None: none.
 
@@ -122,7 +122,7 @@ def _limit_lines(rate: bool, low: str, high: str, last: str, step: str) -> list[
 
 
 @_function
-@printed(*BOTH)
+@kept_for(*BOTH)
 def step(rule: str, rate: bool) -> str:
     """One automatic sample: step(self, y, y_sp) -> u; sets self.v, self.u, self.I, self.x."""
     names = {name: f"self._{name}" for name in GAINS} | {"I": "self.I", "x": "self.x"}
@@ -140,7 +140,7 @@ def step(rule: str, rate: bool) -> str:
 
 
 @_function
-@printed(*BOTH)
+@kept_for(*BOTH)
 def run_samples(rule: str, rate: bool) -> str:
     """Many samples: run(gains, state, y, y_sp, out) fills out and returns the state (I, x, v, u).
 
@@ -164,7 +164,7 @@ def run_samples(rule: str, rate: bool) -> str:
 
 
 @_function
-@printed()
+@kept_for()
 def bumpless_change() -> str:
     """New x and I after a change of settings, from `derivations.programs.bumpless.keep_both_parts`."""
     new = {s.name: value for s, value in bumpless.keep_both_parts().items()}
@@ -173,7 +173,7 @@ def bumpless_change() -> str:
 
 
 @_function
-@printed(("4.13",))
+@kept_for(("4.13",))
 def program_pass(figure: str) -> str:
     """One pass of a printed program: f(values) -> values, with the names of the settings and variables as keys."""
     program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
@@ -188,7 +188,7 @@ def program_pass(figure: str) -> str:
 
 
 @_function
-@printed(("4.13",))
+@kept_for(("4.13",))
 def program_gains(figure: str) -> str:
     """(K, Ti, Td, Tf, b, h, Tt) -> gains by name for a printed program."""
     makers = {

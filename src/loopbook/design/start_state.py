@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any
 
 from loopbook.lazy import late
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 
 listing, laws = late("derivations.algebra.listing"), late("derivations.pid.pid_laws")
 start, code = late("derivations.programs.start"), late("derivations.programs.pid_code")
@@ -17,7 +17,7 @@ def rest_state() -> Callable[..., tuple[float, float]]:
     return run_text(_rest_text(), "math")
 
 
-@printed()
+@kept_for()
 def _rest_text() -> str:
     import sympy
 
@@ -47,7 +47,7 @@ def start_formulas() -> tuple[str, str]:
     return x, I
 
 
-@printed()
+@kept_for()
 def _start_texts() -> list[str]:
     import sympy
 
@@ -62,7 +62,7 @@ def _start_texts() -> list[str]:
     return [f"x = {written(top)}/({written(below)})", f"I = {text.removeprefix('+ ').replace('u0', 'u')}"]
 
 
-@printed()
+@kept_for()
 def program_lines() -> list[str]:
     """The lines of pid-report's figure 4.13, with the gains and limits by their names."""
     return code.minimal().listing().splitlines()

@@ -16,7 +16,7 @@ import numpy as np
 from loopbook.experiments.data import FrequencyData, StepData, TwoLagData
 from loopbook.experiments.plant import ExperimentError
 from loopbook.lazy import late
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 
 d = late("derivations.experiments.two_lags")
 
@@ -32,7 +32,7 @@ def _functions(backend: str) -> tuple[Callable[..., Any], ...]:
     return tuple(run_text(text, backend) for text in _texts(backend))
 
 
-@printed(("math",), ("numpy",))
+@kept_for(("math",), ("numpy",))
 def _texts(backend: str) -> list[str]:
     import sympy
 

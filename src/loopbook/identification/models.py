@@ -4,14 +4,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from loopbook.lazy import late
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
 
-step_responses = late("derivations.experiments.step_responses")
+if TYPE_CHECKING:
+    from derivations.experiments import step_responses
+else:
+    step_responses = late("derivations.experiments.step_responses")
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,7 @@ def _function(name: str) -> Callable[..., np.ndarray]:
     return lambda t, *lags: np.broadcast_to(compiled(t, *lags), np.shape(t))
 
 
-@printed(("first_order",), ("two_lags",), ("two_equal_lags",), ("integrator",), ("integrator_with_lag",))
+@kept_for(("first_order",), ("two_lags",), ("two_equal_lags",), ("integrator",), ("integrator_with_lag",))
 def _text(name: str) -> str:
     expression = getattr(step_responses, name)()
     symbols = (step_responses.T, step_responses.T2, step_responses.w0, step_responses.zeta)

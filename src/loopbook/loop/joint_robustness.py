@@ -19,7 +19,7 @@ from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopTransfer
 from loopbook.numerics import horner
 from loopbook.numerics.units import characteristic_time
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
 
 d = late("derivations.loop.robustness")
@@ -30,7 +30,7 @@ def _at_point() -> Callable[..., Any]:
     return run_text(_text(), "numpy")
 
 
-@printed()
+@kept_for()
 def _text() -> str:
     return lambda_text((d.a, d.b), d.joint_M(), "numpy")
 

@@ -1,11 +1,12 @@
 """Results of derivations as plain data, kept beside the code: read where the sources are unchanged, else derived.
 
-A function decorated with `printed` returns plain data (texts, numbers, lists, tables) that follow from the derivations
+A function decorated with `kept_for` returns plain data (texts, numbers, lists, tables) that follow from the derivations
 and its arguments alone. Asked with arguments that are kept, it answers from ``forms.json``; with others, or where one
 byte of the derivations or of a decorated module has changed, it derives. So a kept text is never trusted to be current.
 """
 
 import json
+import math
 from collections.abc import Callable, Iterable
 from functools import cache, reduce, wraps
 from hashlib import sha256
@@ -36,7 +37,7 @@ USERS = (
 _printed: dict[str, tuple[Callable[..., Any], tuple[tuple[Any, ...], ...]]] = {}
 
 
-def printed(*each: tuple[Any, ...]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def kept_for(*each: tuple[Any, ...]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Keep what the decorated function gives for each of these tuples of arguments; () alone where it takes none."""
 
     def decorate(make: Callable[..., Any]) -> Callable[..., Any]:
@@ -89,7 +90,7 @@ def derived() -> dict[str, Any]:
     }
 
 
-def as_text() -> str:
+def forms_text() -> str:
     """The file that holds them."""
     return json.dumps({"sources": sources(), "forms": derived()}, indent=1, ensure_ascii=False) + "\n"
 
@@ -103,7 +104,6 @@ def lambda_text(letters: Iterable[Any], expression: Any, backend: str, **options
 
 def run_text(text: str, backend: str) -> Callable[..., Any]:
     """The function of `lambda_text`."""
-    import math
 
     space: dict[str, Any] = dict(vars(math if backend == "math" else np))
     if backend == "numpy":

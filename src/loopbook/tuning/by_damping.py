@@ -11,7 +11,7 @@ from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
 from loopbook.lazy import late
 from loopbook.numerics.real_numbers import positive
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
@@ -29,7 +29,7 @@ def _formulas(order: int) -> Any:
     return run_text(_text(order), "math")
 
 
-@printed((1,), (2,))
+@kept_for((1,), (2,))
 def _text(order: int) -> str:
     found = by_damping.pi() if order == 1 else by_damping.pid()
     letters = [by_damping.b, *(by_damping.a_2, by_damping.a_1, by_damping.a_0)[2 - order :]]

@@ -14,7 +14,7 @@ from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
 from loopbook.lazy import late
 from loopbook.numerics.real_numbers import positive, real
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
@@ -32,7 +32,7 @@ def _formulas() -> Any:
     return run_text(_text(), "math")
 
 
-@printed()
+@kept_for()
 def _text() -> str:
     letters = [pi_by_margin.w, pi_by_margin.g, pi_by_margin.phase, pi_by_margin.margin]
     return lambda_text(letters, list(pi_by_margin.gains().values()), "math")

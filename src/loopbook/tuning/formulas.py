@@ -12,7 +12,7 @@ from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
 from loopbook.lazy import late
 from loopbook.numerics.real_numbers import plain_number
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
@@ -30,7 +30,7 @@ OPTIONS = {
 
 
 @dataclass(frozen=True)
-class Formula:
+class PrintedFormula:
     """A derived expression as the text of a function of quantities, by their names (Kp, T, L, ...)."""
 
     names: tuple[str, ...]
@@ -48,12 +48,12 @@ class Formula:
 
 
 @dataclass(frozen=True)
-class Caution:
+class SaidWhen:
     """A sentence that is said where a condition holds, see `derivations.tuning.rule.Caution`."""
 
-    when: Formula
+    when: PrintedFormula
     text: str
-    shows: Mapping[str, Formula]
+    shows: Mapping[str, PrintedFormula]
     advice: str
 
     def holds(self, values: Mapping[str, float]) -> bool:
@@ -75,36 +75,36 @@ class Published:
     takes: Takes
     letters: tuple[str, ...]
     own: tuple[str, ...]
-    K: Formula
-    Ti: Formula
-    Td: Formula
+    K: PrintedFormula
+    Ti: PrintedFormula
+    Td: PrintedFormula
     b: int
     c: int
-    measure: Formula | None
+    measure: PrintedFormula | None
     b_above: float | None
-    defaults: Mapping[str, Formula]
-    cautions: tuple[Caution, ...]
-    refusals: tuple[Caution, ...]
-    extrapolates: tuple[Caution, ...]
+    defaults: Mapping[str, PrintedFormula]
+    cautions: tuple[SaidWhen, ...]
+    refusals: tuple[SaidWhen, ...]
+    extrapolates: tuple[SaidWhen, ...]
 
     @classmethod
     def read(cls, plain: Mapping[str, Any]) -> "Published":
         """From what `_plain` gives."""
         known = dict(plain) | {"takes": Takes(plain["takes"])}
         known |= {name: tuple(plain[name]) for name in ("letters", "own")}
-        known |= {name: Formula(tuple(plain[name][0]), plain[name][1]) for name in ("K", "Ti", "Td")}
+        known |= {name: PrintedFormula(tuple(plain[name][0]), plain[name][1]) for name in ("K", "Ti", "Td")}
         known["measure"] = _formula(plain["measure"]) if plain["measure"] else None
         known["defaults"] = {name: _formula(text) for name, text in plain["defaults"].items()}
         for kind in ("cautions", "refusals", "extrapolates"):
             known[kind] = tuple(
-                Caution(_formula(when), text, {n: _formula(f) for n, f in shows.items()}, advice)
+                SaidWhen(_formula(when), text, {n: _formula(f) for n, f in shows.items()}, advice)
                 for when, text, shows, advice in plain[kind]
             )
         return cls(**known)
 
 
-def _formula(plain: Any) -> Formula:
-    return Formula(tuple(plain[0]), plain[1])
+def _formula(plain: Any) -> PrintedFormula:
+    return PrintedFormula(tuple(plain[0]), plain[1])
 
 
 @cache
@@ -141,7 +141,7 @@ def _as_tuning_rule(head: Mapping[str, Any], plain: Mapping[str, Any]) -> Tuning
     )
 
 
-@printed()
+@kept_for()
 def _catalogue(*added: str) -> list[list[dict[str, Any]]]:
     """Every rule as plain data: what stands in tables, and what computes. added: folders beside the package's own."""
     return [[_head(rule), _plain(rule)] for rule in derived.catalogue().values()]

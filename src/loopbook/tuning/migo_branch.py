@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from loopbook.lazy import late
-from loopbook.printed.store import lambda_text, printed, run_text
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.frequency_response import response
 from loopbook.process.transfer_function import Process
 
@@ -41,7 +41,7 @@ def _circle() -> Callable[..., tuple[Fraction, ...]]:
     return run_text(_circle_text(), "math")
 
 
-@printed()
+@kept_for()
 def _circle_text() -> str:
     """Numerator and denominator of centre and radius, whole polynomials, so that fractions stay exact."""
     import sympy
@@ -57,7 +57,7 @@ def _branch_functions() -> list[Callable[..., np.ndarray]]:
     return [run_text(text, "numpy") for text in _branch_texts()]
 
 
-@printed()
+@kept_for()
 def _branch_texts() -> list[str]:
     found = d.smooth_branch()
     arguments = (d.w, d.a, d.b, d.r, d.da, d.db, d.C, d.R)

@@ -10,7 +10,7 @@ from loopbook.printed import store
 
 @pytest.mark.long
 def test_what_is_kept_is_what_the_derivations_give():
-    assert store.FILE.read_text(encoding="utf-8") == store.as_text(), "make printed"
+    assert store.FILE.read_text(encoding="utf-8") == store.forms_text(), "make printed"
 
 
 def test_what_is_older_than_its_sources_is_not_believed(monkeypatch):
@@ -20,7 +20,7 @@ def test_what_is_older_than_its_sources_is_not_believed(monkeypatch):
     monkeypatch.setattr(store, "sources", lambda: "changed since")
     try:
         assert store.kept() == {}
-        asked = store.printed(("first_order",))(models._text.__wrapped__)
+        asked = store.kept_for(("first_order",))(models._text.__wrapped__)
         assert "exp" in asked("first_order")
     finally:
         store.kept.cache_clear()
