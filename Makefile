@@ -120,6 +120,9 @@ format: $(READY) ## format, mend, clear the notebooks' outputs
 	@$(BIN)/ruff format $(SOURCES)
 	@$(BIN)/python tools/clear_outputs.py notebooks
 
+printed: $(READY) ## print what is derived in symbols anew, for everything that runs without SymPy
+	@$(BIN)/python -m loopbook.printed
+
 lock: ## resolve the locks for CPython 3.11 to 3.13: make lock [ONLY="environment cluster"] [UPGRADE=1]
 	@$(PYTHON) -m venv .cache/lock
 	@.cache/lock/bin/pip install --quiet --only-binary :all: --require-hashes -r tools/uv.txt

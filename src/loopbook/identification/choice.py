@@ -114,13 +114,14 @@ def _identified(record: Record, fixed: Mapping[str, float] | None) -> Identified
             _refuse(diagnosis.below_sample(record, best) if best.fit >= POOREST_FIT else "")
             _refuse(diagnosis.not_at_rest(record, steps))
             _refuse(diagnosis.disturbed(best, GOOD_FIT))
-            _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
+            _refuse(diagnosis.not_determined(list(fits.values()) if best.fit >= POOREST_FIT else []))
             raise RecordError(
                 f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of "
                 "it; was something else disturbing the process, or is the response not that of a step?"
             )
         chosen = _simplest(fits, criteria, usable)
         _refuse(diagnosis.drift_explains(record, fits[chosen]))
+        _refuse(diagnosis.not_determined(_settling(record, fits, criteria, chosen)))
     else:
         chosen = FIRST_ORDER
         fits[chosen] = directions.worse
@@ -192,6 +193,21 @@ def _simplest(fits: dict[Structure, Fit], criteria: dict[Structure, float], usab
     least = min(criteria[s] for s in usable)
     near = [s for s in usable if criteria[s] - least <= CLEARLY_BETTER]
     return min(near, key=lambda s: (len(fits[s].parameters), criteria[s]))
+
+
+def _settling(
+    record: Record, fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure
+) -> list[Fit]:
+    """The simplest fit that settles within the record and explains it clearly better than a chosen integrating one.
+
+    An undetermined lag in place of another is a matter of degree, this one of where the output ends. A lag longer than
+    the record is an integrator for it.
+    """
+    if not chosen.integrating:
+        return []
+    clearly, length = criteria[chosen] - CLEARLY_BETTER, float(np.ptp(record.time))
+    found = [f for s, f in fits.items() if not s.integrating and criteria[s] < clearly and sum(f.lags) < length]
+    return sorted(found, key=lambda fit: len(fit.parameters))[:1]
 
 
 def _started_off_rest(

@@ -208,7 +208,9 @@ def below_sample(record: Record, fit: Fit) -> str:
 
 
 def not_determined(fits: list[Fit]) -> str:
-    """The fit is good, its parameters are not."""
+    """The fits are good, their parameters are not; nothing to say of none."""
+    if not fits:
+        return ""
     best = max(fits, key=lambda fit: fit.fit)
     wide = [f"{p.name} = {p.value:.3g} ± {p.half_width:.2g}" for p in best.parameters]
     return (

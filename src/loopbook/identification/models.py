@@ -4,11 +4,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivations.experiments import step_responses
+from loopbook.lazy import late
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
+
+if TYPE_CHECKING:
+    from derivations.experiments import step_responses
+else:
+    step_responses = late("derivations.experiments.step_responses")
 
 
 @dataclass(frozen=True)
@@ -177,10 +184,12 @@ _RESPONSES = {
 @cache
 def _function(name: str) -> Callable[..., np.ndarray]:
     """A derived step response as a NumPy function of t and its time constants."""
-    import sympy
+    compiled = run_text(_text(name), "numpy")
+    return lambda t, *lags: np.broadcast_to(compiled(t, *lags), np.shape(t))
 
+
+@kept_for(("first_order",), ("two_lags",), ("two_equal_lags",), ("integrator",), ("integrator_with_lag",))
+def _text(name: str) -> str:
     expression = getattr(step_responses, name)()
     symbols = (step_responses.T, step_responses.T2, step_responses.w0, step_responses.zeta)
-    constants = [c for c in symbols if c in expression.free_symbols]
-    compiled = sympy.lambdify([step_responses.t, *constants], expression, "numpy")
-    return lambda t, *lags: np.broadcast_to(compiled(t, *lags), np.shape(t))
+    return lambda_text([step_responses.t, *(c for c in symbols if c in expression.free_symbols)], expression, "numpy")
