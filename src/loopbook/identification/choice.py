@@ -205,7 +205,7 @@ def _settling(
     """
     if not chosen.integrating:
         return []
-    clearly, length = criteria[chosen] - CLEARLY_BETTER, float(np.ptp(record.time))
+    clearly, length = criteria[chosen] - CLEARLY_BETTER, float(record.time[-1] - record.time[0])
     found = [f for s, f in fits.items() if not s.integrating and criteria[s] < clearly and sum(f.lags) < length]
     return sorted(found, key=lambda fit: len(fit.parameters))[:1]
 
