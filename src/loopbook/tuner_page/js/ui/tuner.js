@@ -233,7 +233,7 @@ export class Tuner {
         });
         this.more = this.toggle(say("more"), false, () => this.showRules());
         const wishes = h("div.lbt-wishes", {}, ...["closed", "margin", "w", "zeta"].map((name) => this.knob(name).element), this.more);
-        return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), ...this.chips, wishes);
+        return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), this.chips[0], wishes, ...this.chips.slice(1));
     }
 
     showRules() {
