@@ -14,10 +14,10 @@ from collections.abc import Iterable
 from itertools import groupby
 
 LETTERS = "".join(chr(c) for c in range(35, 127) if chr(c) != "\\")
-LEAST, MOST = 4, 67
+LEAST, MOST = 4, 131
 SYMBOLS, SLOTS = 256 + MOST - LEAST + 1, 20
 LONGEST, RUN = 15, 74
-CANDIDATES = 64
+CANDIDATES = 1000
 
 
 def _references(data: bytes) -> Iterable[tuple[int, int]]:

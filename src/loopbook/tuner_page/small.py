@@ -14,8 +14,8 @@ from itertools import count, product
 from loopbook.tuner_page.syntax import PROPERTY, SHORT, WORDS, closing, declared_in, roles_of, tokens
 
 SHORTER = {"Infinity": "1/0", "true": "!0", "false": "!1"}
-LONG_GLOBALS = ("Float64Array", "globalThis", "document")
-STATIC = frozenset(("Math", "Number", "Object"))  # what they have needs no `this`
+LONG_GLOBALS = ("Float64Array", "globalThis", "document", "Number", "String")
+STATIC = frozenset(("Array", "Math", "Number", "Object"))  # what they have needs no `this`
 TOPS = frozenset(["const", "let", "function", "class", ";"])
 RESERVED = 23
 ITSELF, OFTEN = "itself", 4  # how often a method says `this` before a name for it is shorter
@@ -117,6 +117,8 @@ def _together(words: list[str], kinds: list[str]) -> list[str]:
         elif kind == "mark" and word in ")]}":
             open_brackets.pop()
             declares.pop()
+        if word == ")" and result[-2:] == ["+=", "1"] and result[-4:-3] == [";"]:
+            result[-2:] = ["++"]
         lone = word == "=>" and result[-1] == ")" and result[-3:-2] == ["("] and kinds[i - 2] == "name"
         if lone and (len(result) < 4 or result[-4] not in ("function", "async")):
             result[-3:] = [result[-2]]
@@ -156,25 +158,32 @@ def _itself(found: list[tuple[str, str]]) -> list[tuple[str, str]]:
     return result
 
 
-def _members(words: list[str]) -> list[str]:
-    """``Math.abs`` and its like, and long globals, by one letter or two, declared at the beginning."""
-    at = [i for i in range(len(words) - 2) if words[i] in STATIC and words[i + 1] == "."]
-    uses = Counter(f"{words[i]}.{words[i + 2]}" for i in at)
-    letters = _short_names(set(words))
-    names = {member: next(letters) for member, n in uses.most_common() if n > 4}
-    if not names:
-        return words
-    for i in at:
-        member = f"{words[i]}.{words[i + 2]}"
-        if member in names:
-            words[i : i + 3] = [names[member], "", ""]
-    globals_used = Counter(w for i, w in enumerate(words) if w in LONG_GLOBALS and words[i - 1] not in (".", "?."))
-    for member, n in globals_used.items():
-        if n > 4:
-            names[member] = next(letters)
-            words = [names[w] if w == member and words[i - 1] not in (".", "?.") else w for i, w in enumerate(words)]
-    declared = ",".join(f"{name}={member}" for member, name in names.items())
-    return [f"let {declared}", ";", *(word for word in words if word)]
+def _members(found: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    """``Math.abs`` and its like, and long globals, by a name declared at the beginning, where they are used often."""
+    joined: list[tuple[str, str]] = []
+    for i, (kind, text) in enumerate(found):
+        before = found[i - 1][1] if i else ";"
+        if before == "." and i > 1 and found[i - 2][1] in STATIC and (i < 3 or found[i - 3][1] != "."):
+            joined[-2:] = [("name", f"{found[i - 2][1]}.{text}")]
+        else:
+            joined.append((kind, text))
+    alone = [i for i, (_, text) in enumerate(joined) if text in LONG_GLOBALS and joined[i - 1][1] not in (".", "?.")]
+    uses = Counter([text for kind, text in joined if kind == "name" and "." in text] + [joined[i][1] for i in alone])
+    often = {member for member, n in uses.items() if n > 4}
+    named: list[tuple[str, str]] = []
+    for member in sorted(often):
+        named += [("name", "const"), ("name", _name_of(member)), ("mark", "="), *tokens(member), ("mark", ";")]
+    places = set(alone)
+    for i, (kind, text) in enumerate(joined):
+        if text in often and kind == "name" and ("." in text or i in places):
+            named.append(("name", _name_of(text)))
+        else:
+            named += tokens(text) if kind == "name" and "." in text else [(kind, text)]
+    return named
+
+
+def _name_of(member: str) -> str:
+    return f"{member.replace('.', '_')}_"
 
 
 def small(text: str, keep: frozenset[str] = frozenset(), properties: frozenset[str] = frozenset()) -> str:
@@ -186,8 +195,8 @@ def small(text: str, keep: frozenset[str] = frozenset(), properties: frozenset[s
     >>> small("function far(depth) { const found = { depth }; return found; }")
     'function x(a){let b={depth:a};return b}'
     """
-    found = _itself(list(tokens(text)))
-    words = _members(_together(_renamed(found, keep, properties), [kind for kind, _ in found]))
+    found = _itself(_members(list(tokens(text))))
+    words = _together(_renamed(found, keep, properties), [kind for kind, _ in found])
     parts: list[str] = []
     before = ""
     for word in words:

@@ -337,6 +337,19 @@ def test_one_screen_on_a_laptop_and_nothing_sticks_out_on_a_phone(opened, scheme
     assert phone.evaluate("getComputedStyle(document.querySelector('.lbt-foot')).position") == "sticky"
 
 
+def test_a_rule_takes_its_wishes_from_the_knobs(opened):
+    tab = opened()
+    for name, text in (("L", "0"), ("T2", "0"), ("w", "0,2"), ("zeta", "0,8")):
+        set_knob(tab, name, text)
+    tab.locator('[data-rule="damping-pi"]').click()
+    ours = lb.tune(lb.tf(2, [40, 1]), "damping-pi", w0=0.2, zeta=0.8)
+    assert (state(tab)["Kc"], state(tab)["Ti"]) == pytest.approx((ours.K, ours.Ti), rel=1e-9)
+    set_knob(tab, "w", "0,01")
+    tab.locator('[data-rule="damping-pi"]').click()
+    assert "does not apply: these poles need gains of both signs" in tab.locator(".lbt-note").inner_text()
+    assert state(tab)["Kc"] == pytest.approx(ours.K, rel=1e-9) and tab.said == []
+
+
 def test_without_javascript_the_figure_is_there(opened):
     tab = opened(java_script_enabled=False)
     assert tab.locator("noscript svg, svg").first.is_visible() and "without it, this is the loop" in tab.inner_text(

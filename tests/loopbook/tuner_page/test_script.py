@@ -40,6 +40,12 @@ def test_the_script_is_classic_fetches_nothing_and_evaluates_nothing():
         assert word not in text, word
 
 
+def test_the_script_is_one_that_a_browser_reads():
+    from py_mini_racer import MiniRacer
+
+    assert MiniRacer().eval(f"typeof (() => {{\n{script()}}})", timeout=5000) == "function"
+
+
 def test_the_script_is_the_same_at_each_run():
     assert bundle("main.js", generated()) == script()
 

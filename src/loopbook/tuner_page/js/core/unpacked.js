@@ -2,7 +2,7 @@
 
 const LETTERS = Array.from({ length: 92 }, (_, i) => String.fromCharCode(35 + i)).filter((c) => c !== "\\").join("");
 const SHORTEST = 4;
-const MOST_SYMBOLS = 320;
+const MOST_SYMBOLS = 384;
 const SLOTS = 20;
 
 // A canonical code from the lengths of its words: the symbol of "1" + word.

@@ -233,7 +233,7 @@ export class Tuner {
         });
         this.more = this.toggle(say("more"), false, () => this.showRules());
         const wishes = h("div.lbt-wishes", {}, ...["closed", "margin", "w", "zeta"].map((name) => this.knob(name).element), this.more);
-        return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), ...this.chips, wishes);
+        return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), this.chips[0], wishes, ...this.chips.slice(1));
     }
 
     showRules() {
@@ -242,7 +242,8 @@ export class Tuner {
     }
 
     useRule(rule) {
-        const { state } = this, w = state.w || this.result.margins?.gainCrossovers[0]?.w ?? this.result.loop?.gainCrossovers?.[0] ?? 0;
+        const { state } = this, { margins, loop } = this.result;
+        const w = state.w || (margins?.gainCrossovers[0]?.w ?? loop?.gainCrossovers?.[0] ?? 0);
         try {
             const found = settingsBy(rule, processOf(state, this.given), { ...state, w });
             const N = found.Tf ? found.Td / found.Tf : state.N;
