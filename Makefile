@@ -12,7 +12,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-scaling prove-course interop prove-tuner browser lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-identification prove-scaling prove-course interop prove-tuner browser lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -52,13 +52,20 @@ notebooks: $(READY) ## open JupyterLab on the project's kernel
 prove-design: $(READY) ## design for 300 synthetic records and run every loop on its true process
 	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300
 
+prove-identification: $(READY) ## identify 50 simulated plants of each kind: the stated intervals hold the truth in nine of ten
+	@$(BIN)/python tests/loopbook/identification/acceptance/prove_identification.py 50
+
 docs: all $(VENV)/ready-docs ## the documentation as a site that works offline: build/site/index.html
 	@PYTHONPATH=tools $(BIN)/python -m docs_site.build
 
-difference: all $(VENV)/ready-docs ## what changed in ledger and pages since a commit: make difference REF=main [OLD=its reports]
+difference: $(READY) $(VENV)/ready-docs ## what changed in ledger and pages since a commit: make difference REF=main [OLD=its reports] [ACCEPT=1]
 	@mkdir -p build/difference
+	@: > build/difference/difference.txt
+	@$(BIN)/loopbook --root . build $(jobs) $(if $(ACCEPT),--accept) > build/difference/build.txt 2>&1 || { \
+	    echo "The build of this state fails." && sed -n '/ failed:$$/,$$p' build/difference/build.txt && echo; \
+	    } > build/difference/difference.txt
 	@$(BIN)/loopbook --root . diff "$(or $(REF),HEAD)" $(if $(OLD),--reports "$(OLD)" --pictures build/difference/pages) \
-	    > build/difference/difference.txt || test $$? -eq 1
+	    >> build/difference/difference.txt || test $$? -eq 1
 	@cat build/difference/difference.txt
 
 dist: all ## wheel, source distribution and the reports, as a release has them: build/dist
@@ -112,6 +119,9 @@ format: $(READY) ## format, mend, clear the notebooks' outputs
 	@$(BIN)/ruff check --fix $(SOURCES)
 	@$(BIN)/ruff format $(SOURCES)
 	@$(BIN)/python tools/clear_outputs.py notebooks
+
+printed: $(READY) ## print what is derived in symbols anew, for everything that runs without SymPy
+	@$(BIN)/python -m loopbook.printed
 
 lock: ## resolve the locks for CPython 3.11 to 3.13: make lock [ONLY="environment cluster"] [UPGRADE=1]
 	@$(PYTHON) -m venv .cache/lock

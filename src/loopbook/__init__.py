@@ -72,6 +72,9 @@ TABLE = {
     "tune": "loopbook.tuning.by_name:tune",
     "Tuning": "loopbook.tuning.result:Tuning",
     "place": "loopbook.pole_placement.place:place",
+    # how it is typed into a controller
+    "enter": "loopbook.vendors.entered:enter",
+    "vendor_forms": "loopbook.vendors.entered:vendor_forms",
     "diophantine": "loopbook.pole_placement.polynomial_equation:diophantine",
     "state_feedback": "loopbook.pole_placement.state_feedback:state_feedback",
     "observer": "loopbook.pole_placement.state_feedback:observer",

@@ -71,6 +71,8 @@ from loopbook.response.simulation import simulate as simulate
 from loopbook.tuner_page.turned import tuner as tuner
 from loopbook.tuning.by_name import tune as tune
 from loopbook.tuning.result import Tuning as Tuning
+from loopbook.vendors.entered import enter as enter
+from loopbook.vendors.entered import vendor_forms as vendor_forms
 
 TABLE: dict[str, str]
 __all__ = [
@@ -113,6 +115,7 @@ __all__ = [
     "design",
     "diophantine",
     "documents",
+    "enter",
     "experiments",
     "feedback",
     "feedforward",
@@ -144,5 +147,6 @@ __all__ = [
     "tune",
     "tuner",
     "tuning",
+    "vendor_forms",
     "zeros",
 ]

@@ -2,7 +2,7 @@
 
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -137,11 +137,15 @@ def _apply(
     code: bool,
     jobs: int | None,
 ) -> int:
-    from loopbook.code.files import PROGRAMS, with_all_files
-    from notebook_reports.build.apply import apply, items
+    from notebook_reports.build.apply import FORMATS, apply, items
 
     chosen = [f.strip() for f in formats.split(",") if f.strip()]
-    wanted = items(data, report, "design", with_all_files(chosen), more=tuple(PROGRAMS))
+    programs: Mapping[str, Callable[[dict, str], bytes]] = {}
+    if {*chosen, report.suffix.lstrip(".") if report else ""} - {"", *FORMATS}:
+        from loopbook.code import files  # with the languages comes SymPy
+
+        chosen, programs = files.with_all_files(chosen), files.PROGRAMS
+    wanted = items(data, report, "design", chosen, more=tuple(programs))
     _say(wanted, dict(parameters))
     repeat = [
         "loopbook",
@@ -151,7 +155,8 @@ def _apply(
     ]
     repeat += ["--page"] * page + ["--code"] * code
     ready = "loopbook.design.ready:derive"
-    leave_out = frozenset({"detail"} if page else ())
+    for_programs = all({*item.outputs} <= {"json", *programs} for item in wanted)
+    leave_out = frozenset({"detail"} if page or for_programs else ())
     return apply(
         project,
         design_notebook(),
@@ -160,7 +165,7 @@ def _apply(
         jobs=jobs,
         repeat=repeat,
         ready=ready,
-        programs=PROGRAMS,
+        programs=programs,
         code=code,
         leave_out=leave_out,
     ).code

@@ -3,6 +3,7 @@
 import difflib
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from types import ModuleType
 from typing import Any
 
 
@@ -27,3 +28,19 @@ def attach(package: str, table: Mapping[str, str]) -> tuple[Callable[[str], Any]
         return getattr(found, attribute) if attribute else found
 
     return ask, lambda: sorted(table), sorted(table)
+
+
+class _Late(ModuleType):
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(import_module(self.__name__), name)
+
+
+def late(module: str) -> Any:
+    """A module that is imported when something of it is first asked for, such as one that loads SymPy.
+
+    >>> late("math").gcd(12, 18)
+    6
+    """
+    return _Late(module)

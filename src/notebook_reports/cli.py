@@ -126,16 +126,20 @@ def build(
 
 
 @main.command("list")
+@click.argument("notebooks", nargs=-1, metavar="[NOTEBOOK]...")
 @click.pass_obj
-def list_notebooks(project: Project) -> None:
-    """The notebooks, their titles and parameters."""
+def list_notebooks(project: Project, notebooks: tuple[str, ...]) -> None:
+    """The notebooks, their titles and parameters.
+
+    NOTEBOOK is double_tank/03_pole_placement, double_tank/03, double_tank or a path; default: all.
+    """
     from notebook_reports.project.parameters import read_parameters
     from notebook_reports.project.source import read_source
 
-    notebooks = project.notebooks()
-    width = max(len(n.id) for n in notebooks)
+    chosen = project.select(notebooks)
+    width = max(len(n.id) for n in chosen)
     broken = 0
-    for notebook in notebooks:
+    for notebook in chosen:
         try:
             source = read_source(notebook.path)
             parameters = read_parameters(source).values()

@@ -29,6 +29,7 @@ RUNS_CODE = {
     "loopbook/course/running.py": "a teacher's own sheet, cell by cell, as a kernel runs it",
     "loopbook/code/running.py": "a controller as Python, printed from the derived program",
     "loopbook/controllers/generated.py": "a controller as Python, printed from the derived program",
+    "loopbook/printed/store.py": "a function of numbers, printed from a derivation",
     "loopbook/documents/pid_article/c_program.py": "the statements of the C program, proved equal to the derived",
 }
 

@@ -78,7 +78,11 @@ def test_exit_codes_of_build(bench, loopbook):
 
 def test_list(bench, loopbook):
     bench.write("a/good", "# A title", ("q: float = 0.5  # pole, [0, 1)", "parameters"), "q")
-    assert loopbook("list").output == "a/good  A title\n          -p q 0.5  # pole, [0, 1)\n"
+    bench.write("b/other", "# Another", "1")
+    listed = "a/good  A title\n          -p q 0.5  # pole, [0, 1)\n"
+    assert loopbook("list", "a/good").output == loopbook("list", "a").output == listed
+    assert loopbook("list").output.count("title") == 1 and "b/other" in loopbook("list").output
+    assert loopbook("list", "nowhere").exit_code == 2
 
 
 def test_check_says_in_twenty_lines_what_holds_and_then_what_does_not(ledger):

@@ -1,4 +1,4 @@
-"""README's table of verdicts, true of every row of the committed ledger."""
+"""The table of verdicts in docs/verdicts.md, true of every row of the committed ledger."""
 
 import csv
 import re
@@ -85,9 +85,9 @@ MEANS: dict[str, Callable] = {
 }
 
 
-def test_the_readme_has_a_line_for_every_verdict_of_a_value():
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    table = readme.split("## The verdicts")[1].split("A value that is none of these")[0]
+def test_the_page_has_a_line_for_every_verdict_of_a_value():
+    page = (ROOT / "docs/verdicts.md").read_text(encoding="utf-8")
+    table = page.split("# The verdicts")[1].split("A value that is none of these")[0]
     assert set(re.findall(r"^\| ([a-z ]+) \|", table, re.MULTILINE)) - {"verdict"} == set(MEANS)
     assert set(MEANS) == set(VALUE_VERDICTS) - {UNEXPLAINED}
 

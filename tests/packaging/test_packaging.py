@@ -85,6 +85,15 @@ def test_the_readme_example_runs(capsys):
     assert 1.3 < Ms < 1.6 and iae > 0
 
 
+def test_the_licences_are_said_alike_everywhere():
+    assert PROJECT["project"]["license"] == "MIT AND CC-BY-4.0"
+    for name in PROJECT["project"]["license-files"]:
+        assert name in (ROOT / "tools/Dockerfile").read_text(encoding="utf-8")
+    for name in ("README.md", "LICENSE-CONTENT", "docs/sources.md", "tools/docs_site/conf.py", "CITATION.cff"):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        assert "MIT" in text and "CC BY 4.0" in text and "exercise sheets" in text, name
+
+
 def test_no_folder_of_tests_is_left_out(request):
     """pytest passes over some names of folders without a word, such as `build`."""
     left_out = request.config.getini("norecursedirs")

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.builds
 
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
-SOURCES = ("src", "pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE")
+SOURCES = ("src", "pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE", "LICENSE-CONTENT")
 NOTEBOOK = Path("notebooks/own_process/design.ipynb")
 
 

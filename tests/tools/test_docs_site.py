@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from docs_site import reference
+from docs_site import gallery, reference
 from docs_site.docstrings import as_rst
 
 import loopbook as lb
@@ -36,6 +36,11 @@ def test_every_public_name_has_a_page_that_says_something(tmp_path):
 )
 def test_docstrings_are_text(lines, wanted):
     assert as_rst(lines) == wanted
+
+
+def test_a_caption_is_text_and_its_formulas_are_formulas():
+    shown = gallery.words_shown("<b> after $t = 0$ & $K_p$")
+    assert shown.startswith("&lt;b&gt; after <math") and shown.count("<math") == 2 and "$" not in shown
 
 
 def calls():

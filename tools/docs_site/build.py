@@ -49,7 +49,7 @@ def main() -> int:
         text = page.read_text(encoding="utf-8")
         if face := font_face(text):
             page.write_text(text.replace("</head>", f"<style>{face}</style></head>", 1), encoding="utf-8")
-    shutil.copytree(REPORTS, SITE / "reports", dirs_exist_ok=True)
+    shutil.copytree(REPORTS, SITE / "reports", dirs_exist_ok=True, ignore=shutil.ignore_patterns("custom"))
     shutil.copytree(SOURCE / "figures", SITE / "figures", dirs_exist_ok=True)
     dead = list(dead_links(SITE))
     for place, link in dead:

@@ -2,7 +2,7 @@
 
 project = "loopbook"
 author = "the loopbook developers"
-project_copyright = "text and figures CC BY 4.0, code MIT"
+project_copyright = "text, figures and exercise sheets CC BY 4.0, code MIT"
 extensions = ["myst_parser", "sphinx_copybutton", "docs_site.mathml"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_inline"]
 myst_heading_anchors = 3

@@ -6,14 +6,18 @@ execution.
 """
 
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, wraps
 from typing import Any
 
-from derivations.pid.pid_laws import K, Td, Ti
-from derivations.programs import pid_code as code
-from derivations.programs.bumpless import keep_both_parts
+from loopbook.lazy import late
+from loopbook.printed.store import kept_for
+
+laws, code = late("derivations.pid.pid_laws"), late("derivations.programs.pid_code")
+bumpless = late("derivations.programs.bumpless")
 
 GAINS = ("p_1", "p_2", "p_3", "p_4", "p_5", "p_6", "p_24", "c")
+RULES = ("tracking", "none", "conditional", "conditional-safe", "clamping")
+BOTH = tuple((rule, rate) for rule in RULES for rate in (False, True))
 
 
 def _text(expr: Any, names: Mapping[str, str] | None = None) -> str:
@@ -25,16 +29,24 @@ def _text(expr: Any, names: Mapping[str, str] | None = None) -> str:
     return sympy.pycode(renamed)
 
 
-def _compiled(source: str, name: str) -> Callable:
-    space: dict[str, Any] = {}
-    exec(compile(source, f"<generated {name}>", "exec"), space)
-    function = space[name]
-    function.__doc__ = source
-    return function
+def _function(text: Callable[..., str]) -> Callable[..., Callable]:
+    """The function whose text the decorated one writes; its text is its docstring."""
+
+    @cache
+    @wraps(text)
+    def compiled(*args: Any) -> Callable:
+        source, space = text(*args), {}  # type: str, dict[str, Any]
+        exec(compile(source, f"<generated {text.__name__}>", "exec"), space)
+        function = space[source.split("(", 1)[0].removeprefix("def ")]
+        function.__doc__ = source
+        return function
+
+    return compiled
 
 
-@cache
-def gains() -> Callable:
+@_function
+@kept_for()
+def gains() -> str:
     """(K, Ti, Td, Tf, b, c, h, Tt) -> p_1 ... p_6, p_24 and c, as in eqs 4.3, 4.4, 4.11, 4.12, 4.17 to 4.19.
 
     Ti = None gives p_5 = p_6 = 0: without integral action I is a constant offset.
@@ -43,11 +55,12 @@ def gains() -> Callable:
     lines = ["def gains(K, T_i, T_d, T_f, b, c, h, T_t):"]
     lines += [f"    {p} = {_text(values[p])}" for p in GAINS if p not in ("p_5", "p_6", "c")]
     lines += [f"    {p} = 0 * K if T_i is None else {_text(values[p])}" for p in ("p_5", "p_6")]
-    return _compiled("\n".join([*lines, f"    return {', '.join(GAINS)}"]), "gains")
+    return "\n".join([*lines, f"    return {', '.join(GAINS)}"])
 
 
-@cache
-def parallel_gains() -> Callable:
+@_function
+@kept_for()
+def parallel_gains() -> str:
     """(P, I, D, Tf, b, c, h, Tt) -> the same, with K/Ti = I and K Td = D, so that each may be zero; I = None: none.
 
     No division by P is left; raises ArithmeticError if there were.
@@ -56,13 +69,16 @@ def parallel_gains() -> Callable:
 
     P, I, D = (sympy.Symbol(name) for name in ("P", "I", "D"))
     values = {s.name: v for s, v in code.weighted().gain_values().items()} | {"p_24": code.derivative_gain()}
-    given = {name: sympy.cancel(values[name].subs({Ti: K / I, Td: D / K})).subs(K, P) for name in values}
+    given = {
+        name: sympy.cancel(values[name].subs({laws.Ti: laws.K / I, laws.Td: D / laws.K})).subs(laws.K, P)
+        for name in values
+    }
     if any(P in sympy.denom(sympy.together(value)).free_symbols for value in given.values()):
         raise ArithmeticError("a gain is divided by P")
     lines = ["def parallel_gains(P, I, D, T_f, b, c, h, T_t):"]
     lines += [f"    {p} = {_text(given[p])}" for p in GAINS if p not in ("p_5", "p_6", "c")]
     lines += [f"    {p} = 0 * h if I is None else {_text(given[p])}" for p in ("p_5", "p_6")]
-    return _compiled("\n".join([*lines, f"    return {', '.join(GAINS)}"]), "parallel_gains")
+    return "\n".join([*lines, f"    return {', '.join(GAINS)}"])
 
 
 @cache
@@ -105,8 +121,9 @@ def _limit_lines(rate: bool, low: str, high: str, last: str, step: str) -> list[
     return lines
 
 
-@cache
-def step(rule: str, rate: bool) -> Callable:
+@_function
+@kept_for(*BOTH)
+def step(rule: str, rate: bool) -> str:
     """One automatic sample: step(self, y, y_sp) -> u; sets self.v, self.u, self.I, self.x."""
     names = {name: f"self._{name}" for name in GAINS} | {"I": "self.I", "x": "self.x"}
     limits = ("self._low", "self._high")
@@ -119,11 +136,12 @@ def step(rule: str, rate: bool) -> Callable:
         "self.u = u",
         "return u",
     ]
-    return _compiled("\n".join(["def step(self, y, y_sp):", *("    " + line for line in body)]), "step")
+    return "\n".join(["def step(self, y, y_sp):", *("    " + line for line in body)])
 
 
-@cache
-def run_samples(rule: str, rate: bool) -> Callable:
+@_function
+@kept_for(*BOTH)
+def run_samples(rule: str, rate: bool) -> str:
     """Many samples: run(gains, state, y, y_sp, out) fills out and returns the state (I, x, v, u).
 
     All y and y_sp must be finite; states are local variables.
@@ -142,20 +160,21 @@ def run_samples(rule: str, rate: bool) -> Callable:
         "return I, x, v, last",
     ]
     head = "def run(gains, state, measurements, set_points, out):"
-    return _compiled("\n".join([head, *("    " + line for line in body)]), "run")
+    return "\n".join([head, *("    " + line for line in body)])
 
 
-@cache
-def bumpless_change() -> Callable:
+@_function
+@kept_for()
+def bumpless_change() -> str:
     """New x and I after a change of settings, from `derivations.programs.bumpless.keep_both_parts`."""
-    new = {s.name: value for s, value in keep_both_parts().items()}
+    new = {s.name: value for s, value in bumpless.keep_both_parts().items()}
     arguments = "I, x, y, y_sp, K_old, b_old, c_old, p_24old, K_new, b_new, c_new, p_24new"
-    source = f"def bumpless_change({arguments}):\n    return {_text(new['x'])}, {_text(new['I'])}"
-    return _compiled(source, "bumpless_change")
+    return f"def bumpless_change({arguments}):\n    return {_text(new['x'])}, {_text(new['I'])}"
 
 
-@cache
-def program_pass(figure: str) -> Callable:
+@_function
+@kept_for(("4.13",))
+def program_pass(figure: str) -> str:
     """One pass of a printed program: f(values) -> values, with the names of the settings and variables as keys."""
     program = {**code.programs(), "4.7": code.conditional(), "shortest": code.shortest()}[figure]
     lines = ["def program_pass(known):"]
@@ -165,11 +184,12 @@ def program_pass(figure: str) -> Callable:
         value = "u_high if v > u_high else u_low if v < u_low else v" if a.target == code.OUTPUT else _text(a.value)
         lines.append(f"    {a.target.name} = {value}")
     kept = ", ".join(f"{s.name!r}: {s.name}" for s in (*program.states(), code.u, code.v))
-    return _compiled("\n".join([*lines, f"    return {{{kept}}}"]), "program_pass")
+    return "\n".join([*lines, f"    return {{{kept}}}"])
 
 
-@cache
-def program_gains(figure: str) -> Callable:
+@_function
+@kept_for(("4.13",))
+def program_gains(figure: str) -> str:
     """(K, Ti, Td, Tf, b, h, Tt) -> gains by name for a printed program."""
     makers = {
         "4.7": code.conditional,
@@ -182,4 +202,4 @@ def program_gains(figure: str) -> Callable:
     }
     program = makers[figure]()
     pairs = ", ".join(f"{s.name!r}: {_text(value)}" for s, value in program.gain_values().items())
-    return _compiled(f"def program_gains(K, T_i, T_d, T_f, b, h, T_t):\n    return {{{pairs}}}", "program_gains")
+    return f"def program_gains(K, T_i, T_d, T_f, b, h, T_t):\n    return {{{pairs}}}"

@@ -19,12 +19,14 @@ from typing import Any
 import numpy as np
 
 from derivations.errors import LoopbookError
-from derivations.pole_placement.rst_law import law
+from loopbook.lazy import late
 from loopbook.numerics import polynomial_text
 from loopbook.numerics.real_numbers import plain_number, positive
 from loopbook.numerics.recursion import recursion
 from loopbook.numerics.units import CANCELLED
 from loopbook.process import formulas
+
+rst_law = late("derivations.pole_placement.rst_law")
 
 Polynomial = Sequence[float] | np.ndarray
 NEAR = 1e-8
@@ -152,7 +154,7 @@ class RstController:
         self.regulator, self.low, self.high = regulator, low, high
         rows = {"r": regulator.R, "s": regulator.S, "t": regulator.T, "o": regulator.observer}
         values = {f"{letter}_{i}": c for letter, row in rows.items() for i, c in enumerate(row)}
-        self._terms = recursion(law(*(len(row) - 1 for row in rows.values())), values).terms
+        self._terms = recursion(rst_law.law(*(len(row) - 1 for row in rows.values())), values).terms
         self.reset()
 
     def reset(self) -> None:

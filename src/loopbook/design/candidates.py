@@ -41,7 +41,7 @@ class Refused:
 
 def known(model: Model) -> ProcessData:
     """What the rules are told of a model: itself, and the ultimate point where that was measured."""
-    lags = (math.inf,) * model.integrating + model.lags
+    lags = (math.inf,) * model.integrating + model.lags if model.of_lags else None
     return ProcessData(model.upright.process, step=model.step_data, frequency=model.frequency, lags=lags)
 
 

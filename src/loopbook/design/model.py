@@ -9,6 +9,7 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.experiments import step
 from loopbook.experiments.data import FrequencyData, IntegratingStepData, StepData
+from loopbook.identification.models import INVERSE, RINGS
 from loopbook.process.transfer_function import Process
 from notebook_reports.display import number
 
@@ -30,6 +31,9 @@ class ModelError(LoopbookError):
 class Model:
     """gain e^(-delay s) / ((1 + T1 s)(1 + T2 s)...), times 1/s for an integrating process.
 
+    With damping zeta < 1 the two lags (T, T) are a pair that rings, 1 + 2 zeta T s + T^2 s^2; zero Tz > 0 [s] puts
+    1 - Tz s in front: the output starts the wrong way.
+
     gain: Kp [y/u] or, integrating, Kv [y/(u s)]; its sign is free. lags: time constants [s], longest first.
     delay: L [s]. frequency: K180 and T180 where they were measured; otherwise they follow from the model.
     covariance: of (gain, lags..., delay), None where the model is taken as exact. source: where it comes from.
@@ -42,6 +46,8 @@ class Model:
     frequency: "FrequencyData | None" = None
     covariance: Any = None
     source: str = ""
+    damping: float | None = None
+    zero: float = 0.0
 
     def __post_init__(self) -> None:
         lags = tuple(sorted((float(T) for T in self.lags), reverse=True))
@@ -50,6 +56,10 @@ class Model:
             raise ModelError(f"gain = {self.gain!r}: a finite number other than zero is expected, and finite times")
         if any(T <= 0 for T in lags):
             raise ModelError(f"time constants = {list(lags)}: each must be positive, in seconds")
+        if self.damping is not None and not (0 < self.damping < 1 and len(lags) == 2 and lags[0] == lags[1]):
+            raise ModelError(f"damping = {self.damping}: between 0 and 1, with the time constant twice")
+        if not 0 <= self.zero < float("inf"):
+            raise ModelError(f"zero = {self.zero} s: a time, zero or longer, is expected")
         if self.delay < 0:
             raise ModelError(f"delay = {self.delay} s is negative")
         if not lags and not self.integrating:
@@ -71,7 +81,15 @@ class Model:
         den = np.array([1.0, 0.0]) if self.integrating else np.array([1.0])
         for T in self.lags:
             den = np.polymul(den, [T, 1.0])
-        return Process((self.gain,), tuple(den), self.delay)
+        if self.damping is not None:
+            den = np.array([self.lags[0] ** 2, 2 * self.damping * self.lags[0], 1.0])
+        num = (-self.gain * self.zero, self.gain) if self.zero else (self.gain,)
+        return Process(num, tuple(den), self.delay)
+
+    @property
+    def of_lags(self) -> bool:
+        """Is it lags and a dead time, as the rules are written for?"""
+        return self.damping is None and not self.zero
 
     def latex(self) -> str:
         """The transfer function as LaTeX, four digits."""
@@ -85,10 +103,14 @@ class Model:
             lags = [rf"\prod_{{i=1}}^{{{len(self.lags)}}} (1 + T_i s)"]
         else:
             lags = [f"(1 + {text(T)} s)" + (f"^{{{n}}}" if n > 1 else "") for T, n in alike]
+        if self.damping is not None:
+            T = self.lags[0]
+            lags = [f"(1 + {text(2 * self.damping * T)} s + {text(T**2)} s^2)"]
         factors = ["s"] * self.integrating + lags
         alone = len(factors) == 1 and factors[0].startswith("(") and factors[0].endswith(")")
         below = factors[0][1:-1] if alone else " ".join(factors)
-        fraction = rf"\frac{{{text(self.gain)}}}{{{below}}}"
+        above = f"{text(self.gain)} (1 - {text(self.zero)} s)" if self.zero else text(self.gain)
+        fraction = rf"\frac{{{above}}}{{{below}}}"
         return rf"G(s) = {fraction}" + (rf" e^{{-{text(self.delay)} s}}" if self.delay else "")
 
     @cached_property
@@ -102,7 +124,7 @@ class Model:
         model = self.upright
         if model.integrating:
             return IntegratingStepData(model.gain, model.delay + sum(model.lags))
-        if len(model.lags) == 1:
+        if len(model.lags) == 1 and model.of_lags:
             return StepData(model.gain, model.lags[0], model.delay)
         return step.step_data(model.process)
 
@@ -114,7 +136,8 @@ class Model:
         """
         if self.covariance is None:
             return []
-        centre = np.array([self.gain, *self.lags, self.delay])
+        shape = self._shape
+        centre = np.array([self.gain, *shape, self.delay])
         random = np.random.default_rng(seed)
         drawn: list[Model] = []
         for _ in range(50 * number):
@@ -122,9 +145,24 @@ class Model:
                 break
             values = random.multivariate_normal(centre, self.covariance, method="eigh")
             gain, lags, delay = values[0], values[1:-1], max(values[-1], 0.0)
-            if gain * self.gain > 0 and (lags > 0).all():
-                drawn.append(Model(gain, tuple(lags), delay, self.integrating))
+            if gain * self.gain > 0 and (lags > 0).all() and (self.damping is None or lags[1] < 1):
+                drawn.append(self._like(gain, lags.tolist(), delay))
         return drawn
+
+    @property
+    def _shape(self) -> tuple[float, ...]:
+        """The numbers that the covariance is of, between gain and dead time."""
+        if self.damping is not None:
+            return self.lags[0], self.damping
+        return (*self.lags, self.zero) if self.zero else self.lags
+
+    def _like(self, gain: float, shape: list[float], delay: float) -> "Model":
+        """A model of the same structure."""
+        if self.damping is not None:
+            return Model(gain, (shape[0], shape[0]), delay, damping=shape[1])
+        if self.zero:
+            return Model(gain, tuple(shape[:-1]), delay, zero=shape[-1])
+        return Model(gain, tuple(shape), delay, self.integrating)
 
 
 def from_identified(found: "Identified", frequency: "FrequencyData | None" = None) -> Model:
@@ -134,7 +172,13 @@ def from_identified(found: "Identified", frequency: "FrequencyData | None" = Non
 
 def from_fit(fit: "Fit", source: str, frequency: "FrequencyData | None" = None) -> Model:
     """A fitted model, with its covariance."""
+    described = f"{fit.structure.name}, fitted to {source}"
+    if fit.structure.parts == RINGS:
+        T, zeta = fit.lags
+        return Model(fit.gain, (T, T), fit.delay, False, frequency, fit.covariance, described, damping=zeta)
+    if fit.structure.parts == INVERSE:
+        T1, T2, Tz = fit.lags
+        return Model(fit.gain, (T1, T2), fit.delay, False, frequency, fit.covariance, described, zero=Tz)
     order = [0, *(1 + np.argsort(fit.lags)[::-1]), len(fit.lags) + 1]
     covariance = fit.covariance[np.ix_(order, order)]
-    source = f"{fit.structure.name}, fitted to {source}"
-    return Model(fit.gain, fit.lags, fit.delay, fit.structure.integrating, frequency, covariance, source)
+    return Model(fit.gain, fit.lags, fit.delay, fit.structure.integrating, frequency, covariance, described)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from loopbook.controllers.pid_forms import FormError, PidStandard
 from loopbook.controllers.settings import PidSettings
-from loopbook.design.program import start_formulas
+from loopbook.design.start_state import start_formulas
 from loopbook.design.study import Study
 from loopbook.design.words import Units, as_plain_text
 from notebook_reports.display import Table, number

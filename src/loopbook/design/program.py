@@ -1,21 +1,13 @@
 """The regulator as it goes into a controller: sampling interval, filter, coefficients, listing, JSON."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from derivations.algebra.listing import written
-from derivations.pid.pid_laws import c
-from derivations.programs import start
-from derivations.programs.pid_code import minimal
 from loopbook.controllers.generated import program_gains
 from loopbook.controllers.settings import PidSettings
 from loopbook.design.evaluation import Evaluation
-
-if TYPE_CHECKING:
-    import sympy
+from loopbook.design.start_state import program_lines, rest_state, start_formulas
 
 PER_CROSSOVER = 0.15  # h times the gain crossover frequency: the usual upper end of what costs little phase
 GAINS = {
@@ -56,7 +48,7 @@ class SampledProgram:
 
     def listing(self) -> str:
         """The program, generated from the derived difference equations, with the numbers of this design."""
-        lines = minimal().listing().splitlines()
+        lines = program_lines()
         body = lines[lines.index("repeat:") :]
         numbers = [f"{name.replace('_', '')} = {value!r}" for name, value in self.gains.items()]
         limits = [f"ulow = {self.settings.u_low!r}", f"uhigh = {self.settings.u_high!r}", ""]
@@ -83,48 +75,6 @@ class SampledProgram:
             "operating_point": point,
             "start": {"u": self.rest[0], "y": self.rest[1], **self.start, "formulas": formulas},
         }
-
-
-@cache
-def rest_state() -> Callable[..., tuple[float, float]]:
-    """(p_1, p_2, p_3, p_4, y, u) -> (x, I) at rest with the set-point at y, from the derived start state."""
-    import sympy
-
-    x, I = _start_expressions()
-    return sympy.lambdify(
-        [*sympy.symbols("p_1 p_2 p_3 p_4 y u_0")], [x, I.subs({"x": x, "y_sp": sympy.Symbol("y")})], "math"
-    )
-
-
-@cache
-def _start_expressions() -> "list[sympy.Expr]":
-    """x and I (in x) at rest, with the set-point at the measurement, as SymPy expressions in plain symbols."""
-    import sympy
-
-    found = []
-    for expression in (start.derivative_state(), start.integral_from().subs(start.u_ff, 0)):
-        plain = expression.subs({s: sympy.Symbol(s.name) for s in expression.free_symbols})
-        found.append(plain.subs({sympy.Symbol(c.name): 0, sympy.Symbol("feedforward"): 0}))
-    return found
-
-
-@cache
-def start_formulas() -> tuple[str, str]:
-    """x and I at rest as program text, for any u, y and set-point.
-
-    >>> start_formulas()
-    ('x = p4*y/(1 - p3)', 'I = u - p1*ysp - x + p2*y')
-    """
-    import sympy
-
-    x, I = _start_expressions()
-    top, below = sympy.fraction(x)
-    if below.subs("p_3", 0) < 0:
-        top, below = -top, -below
-    order = ("u_0", "-p_1*y_sp", "-x", "p_2*y")
-    terms = sorted(sympy.Add.make_args(I), key=lambda term: order.index(str(term)))
-    text = " ".join(f"- {written(-t)}" if t.could_extract_minus_sign() else f"+ {written(t)}" for t in terms)
-    return f"x = {written(top)}/({written(below)})", f"I = {text.removeprefix('+ ').replace('u0', 'u')}"
 
 
 def round_down(value: float) -> float:

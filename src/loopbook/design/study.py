@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loopbook.design import candidates as rules
-from loopbook.design import evaluation, speed
+from loopbook.design import evaluation, recorded, speed
+from loopbook.design.beyond.offers import offers
 from loopbook.design.decision import conditions, curve, decide
 from loopbook.design.limits import Limits, find_limits, rest_input
 from loopbook.design.model import Model, ModelError, from_fit, from_identified
@@ -19,11 +20,11 @@ from loopbook.design.results import results
 from loopbook.design.selection import horizon
 from loopbook.design.speed import time_scale
 from loopbook.experiments.data import FrequencyData
-from loopbook.identification.choice import identify
 from loopbook.records.reading import read_record
 from loopbook.records.summary import line
 
 if TYPE_CHECKING:
+    from loopbook.design.beyond.offer import Offer
     from loopbook.design.placement import Placed
     from loopbook.design.program import SampledProgram
     from loopbook.design.recommendation import Recommendation
@@ -49,6 +50,9 @@ class Study:
     between the samples of a record without a time column. speed: from 0 (slow) to 1 (fast), and closed_loop: the wanted
     time constant [s]; at most one of them, None and 0 for a rule's own speed. known: parameters of the model fixed by
     the user, "K=2, T=30". seed: of the drawn models.
+    y_low, y_high [y]: the measuring range, for controllers that count in percent of it; None for not given. more:
+    further records of the same process, file names separated by semicolons, beside data; they are pooled, the last of
+    three or more held back. inner: a column between input and output, for a cascade. points: records at other points.
     """
 
     data: str | Path
@@ -68,6 +72,11 @@ class Study:
     closed_loop: float = 0.0
     known: str = ""
     unlimited: bool = False
+    y_low: float | None = None
+    y_high: float | None = None
+    more: str = ""
+    inner: str = ""
+    points: str = ""
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -75,6 +84,11 @@ class Study:
             raise ModelError(f"K180 = {self.K180}, T180 = {self.T180}: an ultimate point needs both, or neither")
         if self.u_low is not None and self.u_high is not None and not self.u_low < self.u_high:
             raise ModelError(f"u_low = {self.u_low} must be below u_high = {self.u_high}")
+        ends = (self.y_low, self.y_high)
+        if ends != (None, None) and (None in ends or not ends[0] < ends[1]):  # type: ignore[operator]
+            raise ModelError(
+                f"y_low = {self.y_low}, y_high = {self.y_high}: a measuring range has both, the low end first"
+            )
         if self.speed is not None and self.closed_loop:
             raise ModelError("speed and closed loop are two ways to say one thing: give one of them")
 
@@ -91,14 +105,15 @@ class Study:
     @cached_property
     def identified(self) -> "Identified | None":
         """The record with its fitted models; None where a model was given."""
-        return identify(self.record, read_fixed(self.known)) if self.record is not None else None
+        return recorded.identified(self)
 
     @cached_property
     def model(self) -> Model:
         """What is designed for: of a process that is faster one way, the model of that way."""
         measured = FrequencyData(self.K180, self.T180) if self.K180 else None
         if self.identified is not None:
-            return from_identified(self.identified, measured)
+            swing = self.identified.oscillation
+            return from_identified(self.identified, measured or (swing.frequency if swing else None))
         model = read_model(self.data)
         if self.known:
             model = with_fixed(model, read_fixed(self.known))
@@ -255,6 +270,11 @@ class Study:
         """The recommended loop and the next best for the aim, five at most."""
         chosen = self.recommendation.chosen
         return [chosen, *[e for e in self.recommendation.admitted if e is not chosen][:4]]
+
+    @cached_property
+    def beyond(self) -> "list[Offer]":
+        """What other structures would bring beside the best PID."""
+        return offers(self)
 
     @property
     def line(self) -> str:

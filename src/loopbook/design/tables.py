@@ -13,6 +13,7 @@ from loopbook.design.study import Study
 from loopbook.design.words import as_plain_text
 from loopbook.identification.fit import Parameter
 from loopbook.identification.graphical import graphical_readings
+from loopbook.records.record import RecordError
 from notebook_reports.display import Table, number
 
 
@@ -71,9 +72,13 @@ def graphical(study: Study) -> Table:
     """What the documents' graphical rules read off the first step."""
     if study.identified is None:
         return Table(["rule"], [["no record: nothing to read"]], "Graphical rules")
+    try:
+        readings = graphical_readings(study.identified.record)
+    except RecordError as error:
+        return Table(["rule"], [[f"no step that can be read: {as_plain_text(str(error))}"]], "Graphical rules")
     rows = [
         [r.rule, r.source, ", ".join(f"{n} = {number(v, 4)}" for n, v in r.values.items()) or f"refuses: {r.reason}"]
-        for r in graphical_readings(study.identified.record)
+        for r in readings
     ]
     return Table(["rule", "source", "reads"], rows, "Graphical rules on the first step", ["left"] * 3)
 

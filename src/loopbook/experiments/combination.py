@@ -13,9 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from derivations.experiments import two_lags as d
 from loopbook.experiments.data import FrequencyData, StepData, TwoLagData
 from loopbook.experiments.plant import ExperimentError
+from loopbook.lazy import late
+from loopbook.printed.store import kept_for, lambda_text, run_text
+
+d = late("derivations.experiments.two_lags")
 
 PRINTED_TAIL = 0.37
 ALPHAS = np.concatenate([np.geomspace(1e-9, 1e-2, 60)[:-1], np.linspace(0.01, 1.0, 199)])
@@ -26,18 +29,23 @@ EDGE = 1e-6  # what the equation may leave at the ends alpha = 0 and 1, where it
 def _functions(backend: str) -> tuple[Callable[..., Any], ...]:
     """T1(alpha, w, Kp, Ku) as printed and without cancellation, L1(w, T1, T2), e1(T1, T2, L1, T63, tail), the same for
     equal lags, e2 and e3."""
+    return tuple(run_text(text, backend) for text in _texts(backend))
+
+
+@kept_for(("math",), ("numpy",))
+def _texts(backend: str) -> list[str]:
     import sympy
 
     tail = sympy.Symbol("tail")
     found = d.residuals(tail)
     forms = d.first_lag(), d.first_lag_without_cancellation()
-    first, safe = (sympy.lambdify((d.alpha, d.omega, d.K_p, d.K_u), e, backend) for e in forms)
-    dead = sympy.lambdify((d.omega, d.T_1, d.T_2), d.dead_time(), backend)
+    first, safe = (lambda_text((d.alpha, d.omega, d.K_p, d.K_u), e, backend) for e in forms)
+    dead = lambda_text((d.omega, d.T_1, d.T_2), d.dead_time(), backend)
     arguments = (d.T_1, d.T_2, d.L_1, d.T_63, tail)
-    e1, equal = (sympy.lambdify(arguments, e, backend) for e in (found.e1, found.e1_equal))
-    e2 = sympy.lambdify((d.T_1, d.T_2, d.omega, d.K_p, d.K_u), found.e2, backend)
-    e3 = sympy.lambdify((d.T_1, d.T_2, d.L_1, d.omega), found.e3, backend)
-    return first, safe, dead, e1, equal, e2, e3
+    e1, equal = (lambda_text(arguments, e, backend) for e in (found.e1, found.e1_equal))
+    e2 = lambda_text((d.T_1, d.T_2, d.omega, d.K_p, d.K_u), found.e2, backend)
+    e3 = lambda_text((d.T_1, d.T_2, d.L_1, d.omega), found.e3, backend)
+    return [first, safe, dead, e1, equal, e2, e3]
 
 
 def lags(alpha: float, step: StepData, frequency: FrequencyData) -> tuple[float, float, float]:

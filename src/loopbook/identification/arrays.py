@@ -10,6 +10,7 @@ from loopbook.identification.choice import identify as identify_record
 from loopbook.identification.fit import Fit
 from loopbook.identification.least_squares import fit_structure
 from loopbook.identification.models import FIRST_ORDER, INTEGRATING, INTEGRATING_LAG, SECOND_ORDER
+from loopbook.identification.pooled import identify_together
 from loopbook.records.record import Record, RecordError
 
 MODELS = {
@@ -21,11 +22,15 @@ MODELS = {
 
 
 def identify(
-    t: Sequence[float] | Record, u: Sequence[float] | None = None, y: Sequence[float] | None = None, model: str = ""
+    t: Sequence[float] | Record | Sequence[Record],
+    u: Sequence[float] | None = None,
+    y: Sequence[float] | None = None,
+    model: str = "",
 ) -> Identified | Fit:
     """Models with dead time from a recorded step test, each parameter with its 95 % interval; print the result.
 
-    t [s], u, y: the samples, or a `Record` alone. model: "first order", "second order", "integrating" or "integrating
+    t [s], u, y: the samples, or a `Record` alone, or several records of one process, which are pooled (the last of
+    three or more held back to try the model on). model: "first order", "second order", "integrating" or "integrating
     with lag" fits that one (a `Fit`); "" fits all and chooses the simplest that no other one clearly beats (an
     `Identified`). Both tell a tuning rule of the process.
     Raises RecordError where no step is found or no model explains the response.
@@ -41,6 +46,8 @@ def identify(
     T          9.999  0.0571
     L          3      0.0382
     """
+    if not isinstance(t, Record) and len(t) and all(isinstance(part, Record) for part in t):
+        return identify_together([part for part in t if isinstance(part, Record)])
     if isinstance(t, Record):
         record: Any = t
     elif u is None or y is None:

@@ -1,15 +1,18 @@
 """Which model a record supports, and why, in words an engineer can argue with."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-
-import numpy as np
+from dataclasses import dataclass, replace
 
 from loopbook.identification import diagnosis
+from loopbook.identification.closed_loop import closed_steps, fit_all_closed, recognised
+from loopbook.identification.criteria import criteria_of, criterion, effective_samples, size_of
 from loopbook.identification.directions import CLEARLY_DIFFERENT, Directions, fit_directions
 from loopbook.identification.fit import Fit
 from loopbook.identification.least_squares import fit_all
-from loopbook.identification.models import FIRST_ORDER, SECOND_ORDER, Structure
+from loopbook.identification.models import FIRST_ORDER, INTEGRATING, SECOND_ORDER, Structure
+from loopbook.identification.oscillation import Oscillation, find_oscillation, integrator_through
+from loopbook.identification.unusual import asks, unusual_fits
+from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record, RecordError
@@ -28,6 +31,7 @@ class Identified(ShownAsTable):
     criteria: Akaike's criterion of each structure relative to the best, all with the same effective number of samples.
     reasons: why this one. warnings: what a user of the model has to know; empty where nothing is to be said.
     directions: a model for each direction of the output, where they differ; `chosen` is then the worse one.
+    oscillation: of a relay or at the edge of stability, where the record ends in one.
     """
 
     record: Record
@@ -38,6 +42,7 @@ class Identified(ShownAsTable):
     reasons: tuple[str, ...]
     warnings: tuple[str, ...]
     directions: Directions | None = None
+    oscillation: Oscillation | None = None
 
     @property
     def process(self) -> Process:
@@ -52,35 +57,6 @@ class Identified(ShownAsTable):
         return "\n".join([str(self.chosen), *self.reasons, *(f"mind: {text}" for text in self.warnings)])
 
 
-def _size(fit: Fit) -> int:
-    """How many numbers a fit took."""
-    beside = {"rest": 1, "drift": 2, "start": 1 + max(fit.structure.lags, 1)}[fit.nuisance]
-    return len(fit.parameters) + beside + len(fit.effects)
-
-
-def _criterion(fit: Fit, size: int, effective: float) -> float:
-    p = min(size, effective - 2.5)
-    return float(effective * np.log(max(fit.rmse, 1e-300) ** 2) + 2 * p * effective / (effective - p - 1))
-
-
-def _effective(fits: list[Fit], n: int) -> float:
-    """How many independent samples n are worth, by the correlation of the best fit's residuals."""
-    r = min(fits, key=lambda fit: fit.rmse).correlation
-    return max(n * (1 - r) / (1 + r), 12.0)
-
-
-def _criteria(fits: dict[Structure, Fit], n: int) -> dict[Structure, float]:
-    """Akaike's corrected criterion of each fit, less the smallest.
-
-        n_e ln(rmse^2) + 2 p n_e/(n_e - p - 1),    n_e = n (1 - r)/(1 + r)
-
-    with the correlation r of the best fit's residuals for all, so that the criteria count the same samples.
-    """
-    effective = _effective(list(fits.values()), n)
-    values = {structure: _criterion(fit, _size(fit), effective) for structure, fit in fits.items()}
-    return {structure: value - min(values.values()) for structure, value in values.items()}
-
-
 def determined(fit: Fit) -> bool:
     """Does the record determine the gain and every time constant to better than their own size?"""
     return all(p.half_width < abs(p.value) for p in fit.parameters[:-1])
@@ -90,9 +66,19 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
     """Fit every structure and choose the simplest that no other one clearly beats.
 
     fixed: parameters by name that are not fitted. Raises RecordError with the reason where no step is found, the output
-    does not answer, or no model can be relied on.
+    does not answer, or no model can be relied on. A record that ends in a steady oscillation tells K180 and T180.
     """
+    swing = find_oscillation(record)
+    if swing is not None and swing.kind == "sustained":
+        return _sustained(record, swing)
+    found = _identified(record, fixed)
+    return found if swing is None else _by_relay(found, swing)
+
+
+def _identified(record: Record, fixed: Mapping[str, float] | None) -> Identified:
     _refuse(diagnosis.saturated(record))
+    if recognised(record):
+        return _closed(record, fixed)
     try:
         steps = find_steps(record)
     except RecordError:
@@ -103,42 +89,99 @@ def identify(record: Record, fixed: Mapping[str, float] | None = None) -> Identi
         raise RecordError(f"no model has the parameters {', '.join(fixed or {})} together; fix K, T (or T1, T2) and L")
     fits = _started_off_rest(record, steps, fits, fixed)
     n = int(record.used.sum())
-    criteria = _criteria(fits, n)
+    criteria = criteria_of(fits, n)
     best = min(fits.values(), key=lambda fit: fit.rmse)
     _refuse(diagnosis.closed_loop(record) if best.fit < GOOD_FIT else "")
     usable = [s for s in fits if determined(fits[s])]
     first = fits.get(FIRST_ORDER)
     directions = _directions(record, steps, first, best, n) if first and not fixed else None
+    strange = _unusual(record, steps, fits, best, n) if directions is None else None
+    if strange is not None and fixed:
+        _refuse(diagnosis.rings(strange))
+    elif strange is not None:
+        fits, best = {**fits, strange.structure: strange}, strange
+        criteria = criteria_of(fits, n)
+        usable.append(strange.structure)
     if directions is None:
         poor = best.fit < GOOD_FIT and not fixed
-        _refuse(diagnosis.underdamped(record, steps, best))
         _refuse(diagnosis.asymmetric(record, steps, best) if poor else "")
         _refuse(diagnosis.drift_explains(record, best))
         lost = diagnosis.below_noise(best, steps)
         _refuse(lost and (diagnosis.saturated(record, HALF) or lost))
-        _refuse(diagnosis.has_zero(record, steps, best) if poor else "")
+        _refuse(diagnosis.has_zero(record, steps, best) if poor and strange is None else "")
         _refuse(diagnosis.disturbed(best) if poor else "")
         if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
             _refuse(diagnosis.below_sample(record, best) if best.fit >= POOREST_FIT else "")
             _refuse(diagnosis.not_at_rest(record, steps))
             _refuse(diagnosis.disturbed(best, GOOD_FIT))
-            _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
+            _refuse(diagnosis.not_determined(list(fits.values()) if best.fit >= POOREST_FIT else []))
             raise RecordError(
                 f"no model explains the response: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of "
                 "it; was something else disturbing the process, or is the response not that of a step?"
             )
         chosen = _simplest(fits, criteria, usable)
         _refuse(diagnosis.drift_explains(record, fits[chosen]))
+        _refuse(diagnosis.not_determined(_settling(record, fits, criteria, chosen)))
     else:
         chosen = FIRST_ORDER
         fits[chosen] = directions.worse
-        criteria = _criteria(fits, n)
+        criteria = criteria_of(fits, n)
     fit = fits[chosen]
     _refuse(diagnosis.below_sample(record, fit))
     _refuse(diagnosis.extrapolated(record, steps, fit))
     reasons = _reasons(fits, criteria, chosen, usable) if directions is None else _both(directions)
     warnings = (*record.faults, *_warnings(fit, fits, steps))
     return Identified(record, steps, fits, criteria, fit, tuple(reasons), warnings, directions)
+
+
+def _by_relay(found: Identified, swing: Oscillation) -> Identified:
+    """With what the oscillation says: K180 and T180 as measured, or the model's where the relay stops short."""
+    reasons = [swing.describe()]
+    if swing.frequency is None:
+        try:
+            point = ultimate(found.process if found.chosen.gain > 0 else found.process * -1.0)
+            reasons.append(f"At -180 degrees the model has K180 = {point.K180:.4g} and T180 = {point.T180:.4g} s.")
+        except NoSuchFrequency as error:
+            reasons.append(f"The model has no point at -180 degrees: {error}")
+    warnings = tuple(text for text in found.warnings if "after the last step" not in text)
+    return replace(found, reasons=(*found.reasons, *reasons), warnings=warnings, oscillation=swing)
+
+
+def _sustained(record: Record, swing: Oscillation) -> Identified:
+    """A loop on the edge of stability: two numbers at one frequency, and the integrator with dead time through them."""
+    whole, steps, fit = integrator_through(record, swing)
+    warning = (
+        "One frequency gives two numbers: the model is the integrator with dead time through K180 and T180. It says "
+        "nothing of the gain at rest; a step test would."
+    )
+    reasons, alone = (swing.describe(),), {INTEGRATING: fit}
+    return Identified(whole, steps, alone, {INTEGRATING: 0.0}, fit, reasons, (warning,), None, swing)
+
+
+def _closed(record: Record, fixed: Mapping[str, float] | None) -> Identified:
+    """The same with a regulator at work, from its set-point steps."""
+    steps, moves = closed_steps(record)
+    fits = fit_all_closed(record, steps, fixed)
+    criteria = criteria_of(fits, len(record.time))
+    usable = [s for s in fits if determined(fits[s])]
+    best = min(fits.values(), key=lambda fit: fit.rmse)
+    if not usable or max(fits[s].fit for s in usable) < POOREST_FIT:
+        _refuse(diagnosis.not_determined(list(fits.values())) if best.fit >= POOREST_FIT else "")
+        raise RecordError(
+            f"no model explains the closed loop: the best ({best.structure.name}) leaves {100 - best.fit:.0f} % of the "
+            "output; was a load moving it too? Step the set-point further, or record in manual"
+        )
+    chosen = _simplest(fits, criteria, usable)
+    _refuse(diagnosis.below_sample(record, fits[chosen]))
+    many = "one set-point step" if moves == 1 else f"{moves} set-point steps"
+    reasons = [
+        f"The record was made in closed loop: the input follows set-point and measurement. The process was identified "
+        f"from {many} by prediction error with a model of the noise, which is consistent with a regulator at work.",
+        *_reasons(fits, criteria, chosen, usable),
+    ]
+    return Identified(
+        record, steps, fits, criteria, fits[chosen], tuple(reasons), tuple(_warnings(fits[chosen], fits, steps))
+    )
 
 
 def _refuse(reason: str) -> None:
@@ -150,6 +193,21 @@ def _simplest(fits: dict[Structure, Fit], criteria: dict[Structure, float], usab
     least = min(criteria[s] for s in usable)
     near = [s for s in usable if criteria[s] - least <= CLEARLY_BETTER]
     return min(near, key=lambda s: (len(fits[s].parameters), criteria[s]))
+
+
+def _settling(
+    record: Record, fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure
+) -> list[Fit]:
+    """The simplest fit that settles within the record and explains it clearly better than a chosen integrating one.
+
+    An undetermined lag in place of another is a matter of degree, this one of where the output ends. A lag longer than
+    the record is an integrator for it.
+    """
+    if not chosen.integrating:
+        return []
+    clearly, length = criteria[chosen] - CLEARLY_BETTER, float(record.time[-1] - record.time[0])
+    found = [f for s, f in fits.items() if not s.integrating and criteria[s] < clearly and sum(f.lags) < length]
+    return sorted(found, key=lambda fit: len(fit.parameters))[:1]
 
 
 def _started_off_rest(
@@ -165,9 +223,9 @@ def _started_off_rest(
     _, others = fit_all(record, steps, "start", fixed)
     others = {s: fit for s, fit in others.items() if s in lagging}
     n = int(record.used.sum())
-    effective = _effective([*fits.values(), *others.values()], n)
+    effective = effective_samples([*fits.values(), *others.values()], n)
     better = min(others.values(), key=lambda fit: fit.rmse)
-    gain = _criterion(best, _size(best), effective) - _criterion(better, _size(better), effective)
+    gain = criterion(best, size_of(best), effective) - criterion(better, size_of(better), effective)
     return {**fits, **others} if gain > CLEARLY_BETTER else fits
 
 
@@ -180,11 +238,24 @@ def _directions(record: Record, steps: Steps, first: Fit, best: Fit, n: int) -> 
         return None
     directions, size = found
     up, down = directions.up.lags[0], directions.down.lags[0]
-    effective = _effective([best, directions.up], n)
-    gain = _criterion(best, _size(best), effective) - _criterion(directions.up, size, effective)
+    effective = effective_samples([best, directions.up], n)
+    gain = criterion(best, size_of(best), effective) - criterion(directions.up, size, effective)
     separate = abs(up - down) > max(f.parameter("T").half_width for f in (directions.up, directions.down))
     different = max(up, down) > CLEARLY_DIFFERENT * min(up, down) and separate
     return directions if different and gain > CLEARLY_BETTER and directions.up.fit > 80 else None
+
+
+def _unusual(record: Record, steps: Steps, fits: dict[Structure, Fit], best: Fit, n: int) -> Fit | None:
+    """A shape that no lags have, where it explains the record clearly better than every one of lags."""
+    if not asks(best, steps):
+        return None
+    found = unusual_fits(record, steps, best.nuisance)
+    if not found:
+        return None
+    better = min(found, key=lambda fit: fit.rmse)
+    effective = effective_samples([*fits.values(), *found], n)
+    gain = criterion(best, size_of(best), effective) - criterion(better, size_of(better), effective)
+    return better if gain > CLEARLY_BETTER and better.fit > POOREST_FIT else None
 
 
 def _both(directions: Directions) -> list[str]:

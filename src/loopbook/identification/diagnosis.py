@@ -5,16 +5,15 @@ Each function looks for one reason and returns the sentence, or "" where it is n
 
 import numpy as np
 
-from loopbook.identification import intervals
 from loopbook.identification.fit import Fit
-from loopbook.identification.least_squares import FitProblem, linear
-from loopbook.identification.models import FEW_STEPS, FIRST_ORDER, _function
+from loopbook.identification.least_squares import FitProblem
+from loopbook.identification.models import FIRST_ORDER, UNDERDAMPED
+from loopbook.identification.normal_equations import linear
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps, drifts
 
 BELOW_NOISE = 3.0  # peak to peak of the input's contribution, in standard deviations of the noise
 MOST_CUT = 0.9  # of the samples
-BEYOND_LAGS = 40.0  # Akaike's criterion: what a pair of complex poles has to bring beyond lags
 BEYOND_DRIFT = 15.0  # Akaike's criterion: what the input has to bring beyond a straight line
 CONTINUAL = 0.4  # of the samples: an input that changes as often may be a regulator's
 FOLLOWS = 0.9  # of the input's own news explained by the measurement
@@ -128,45 +127,14 @@ def _explained(target: np.ndarray, columns: np.ndarray) -> float:
     return float(np.sqrt(np.mean(left**2)))
 
 
-def underdamped(record: Record, steps: Steps, fit: Fit) -> str:
-    """A pair of complex poles fits clearly better: the response rings."""
-    if len(steps.list) > FEW_STEPS or (fit.correlation < 0.5 and fit.fit > 90):
+def rings(fit: Fit) -> str:
+    """A pair of complex poles fits clearly better than the lags that the user fixed."""
+    if fit.structure is not UNDERDAMPED:
         return ""
-    from scipy.optimize import least_squares
-
-    problem = FitProblem(record, FIRST_ORDER, steps, "rest", {})
-    shape, scale = _function("ringing"), float(np.std(problem.y)) or 1.0
-
-    def residuals(theta: np.ndarray) -> np.ndarray:
-        w0, zeta, delay = np.exp(theta[0]), theta[1], theta[2]
-        answer = np.zeros(len(problem.time))
-        for instant, height in steps.list:
-            answer += height * shape(np.maximum(problem.time - instant - delay, 0.0), w0, zeta)
-        columns = np.column_stack([np.ones(len(answer)), answer])
-        return (problem.y - columns @ np.linalg.lstsq(columns, problem.y, rcond=None)[0]) / scale
-
-    h, length = record.sampling, problem.length
-    lower, upper = [np.log(0.5 / length), 0.01, 0.0], [np.log(3 / h), 0.99, 0.5 * length]
-    grid = [
-        np.array([log, zeta, delay])
-        for log in np.linspace(lower[0], upper[0], 24)
-        for zeta in (0.1, 0.4)
-        for delay in (0.0, 3 * h, fit.delay)
-    ]
-    inside = [np.clip(g, np.array(lower) + 1e-9, np.array(upper) - 1e-9) for g in grid]
-    inside.sort(key=lambda theta: float(np.sum(residuals(theta) ** 2)))
-    best = min((least_squares(residuals, s, bounds=(lower, upper)) for s in inside[:3]), key=lambda r: r.cost)
-    rms = float(np.sqrt(2 * best.cost / len(problem.y))) * scale
-    w0, zeta = float(np.exp(best.x[0])), float(best.x[1])
-    left = residuals(best.x)
-    worth = len(left) / intervals.cost_of_correlation(left)
-    brings = worth * np.log(fit.rmse**2 / max(rms, 1e-300) ** 2)
-    if not ((rms < CLEARLY_BETTER * fit.rmse and zeta < 0.7) or (brings > BEYOND_LAGS and zeta < 0.5)):
-        return ""
-    period = 2 * np.pi / (w0 * np.sqrt(1 - zeta**2))
+    T, zeta = fit.lags
     return (
-        f"the process is underdamped: its response rings with a period of {period:.3g} s and a damping ratio of "
-        f"{zeta:.2f}, and the rules here are for processes of lags; damp it first, or place the poles by hand"
+        f"the process is underdamped: its response rings with a period of {2 * np.pi * T / np.sqrt(1 - zeta**2):.3g} s "
+        f"and a damping ratio of {zeta:.2f}; time constants that are given do not describe it: leave them out"
     )
 
 
@@ -240,7 +208,9 @@ def below_sample(record: Record, fit: Fit) -> str:
 
 
 def not_determined(fits: list[Fit]) -> str:
-    """The fit is good, its parameters are not."""
+    """The fits are good, their parameters are not; nothing to say of none."""
+    if not fits:
+        return ""
     best = max(fits, key=lambda fit: fit.fit)
     wide = [f"{p.name} = {p.value:.3g} ± {p.half_width:.2g}" for p in best.parameters]
     return (

@@ -10,8 +10,9 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
-from loopbook.identification.least_squares import FitProblem, linear
+from loopbook.identification.least_squares import FitProblem
 from loopbook.identification.models import FIRST_ORDER
+from loopbook.identification.normal_equations import linear
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps
 

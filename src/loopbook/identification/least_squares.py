@@ -15,14 +15,14 @@ import numpy as np
 
 from loopbook.identification import intervals
 from loopbook.identification.fit import Fit, Parameter
-from loopbook.identification.models import STRUCTURES, Structure
+from loopbook.identification.models import RINGS, STRUCTURES, Structure
+from loopbook.identification.normal_equations import linear
 from loopbook.records.record import Record
 from loopbook.records.steps import Steps, drifts, find_steps
 
 CONFIDENCE = 0.95
 NO_DELAY = 0.5  # of a sampling interval: a shorter dead time is none
 ALIKE = 0.9  # ratio of two lags from which on the response hardly tells which is which
-WELL_POSED = 1e-6  # of the scaled normal equations' determinant
 NUISANCES = ("rest", "drift", "start")
 
 
@@ -89,10 +89,13 @@ class FitProblem:
         """Time constants from the search variables: log T, then the ratio T2/T1 in (0, 1]."""
         if self.structure.lags == 0:
             return ()
-        first = float(np.exp(theta[0]))
-        if self.structure.lags == 1:
-            return (first,)
-        return (first, min(self.fixed.get("T2", first * float(theta[1])), first))
+        found = self.structure.numbers(float(np.exp(theta[0])), theta[1:-1])
+        return (found[0], min(self.fixed["T2"], found[0])) if "T2" in self.fixed and len(found) == 2 else found
+
+    def theta(self, lags: tuple[float, ...], delay: float) -> np.ndarray:
+        """The search variables of lags and dead time, the inverse of `lags`."""
+        others = lags[1:] if self.structure.parts == RINGS else tuple(T / lags[0] for T in lags[1:])
+        return np.array([*([np.log(lags[0])] if lags else []), *others, delay])
 
     def pinned(self) -> dict[int, float]:
         """Search variables that are fixed, by their place."""
@@ -109,7 +112,7 @@ class FitProblem:
         sampling = self.record.sampling
         delays = np.concatenate([[0.0], np.geomspace(min(sampling, 0.4 * self.length), 0.5 * self.length, 11)])
         logs = np.log(np.geomspace(max(sampling, self.length / 500), 3 * self.length, 12))
-        axes = [*(logs, np.array([0.15, 0.6]))[: self.structure.lags], delays]
+        axes = [*([logs] if self.structure.lags else []), *map(np.array, self.structure.axes), delays]
         pinned = self.pinned()
         grids = [np.array([pinned[i]]) if i in pinned else axis for i, axis in enumerate(axes)]
         return np.array(np.meshgrid(*grids, indexing="ij")).reshape(len(grids), -1).T
@@ -156,8 +159,9 @@ class FitProblem:
         if not free:
             return self.lags(starts[0]), float(starts[0][-1])
         costs = np.array([self.rough_cost(theta) for theta in starts])
-        lower = np.array([*[np.log(self.record.sampling / 20), 1e-3][: self.structure.lags], 0.0])[free]
-        upper = np.array([*[np.log(30 * self.length), 1.0][: self.structure.lags], 0.9 * self.length])[free]
+        lags, s = self.structure.lags > 0, self.structure
+        lower = np.array([*[np.log(self.record.sampling / 20)] * lags, *s.low, 0.0])[free]
+        upper = np.array([*[np.log(30 * self.length)] * lags, *s.high, 0.9 * self.length])[free]
         found = []
         for i in _apart(costs, starts):
             start = starts[i]
@@ -168,19 +172,6 @@ class FitProblem:
         theta = starts[i].copy()
         theta[free] = part
         return self.lags(theta), float(theta[-1])
-
-
-def linear(columns: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Coefficients of the least squares, shape (m,): by the normal equations of scaled columns where those are well
-    posed, which is four times as fast for a few columns.
-    """
-    sizes = np.sqrt(np.einsum("ij,ij->j", columns, columns))
-    if (sizes > 0).all():
-        scaled = columns / sizes
-        gram = scaled.T @ scaled
-        if len(sizes) == 1 or np.linalg.det(gram) > WELL_POSED:
-            return np.linalg.solve(gram, scaled.T @ y) / sizes
-    return np.linalg.lstsq(columns, y, rcond=None)[0]
 
 
 def _apart(costs: np.ndarray, starts: np.ndarray) -> list[int]:
@@ -222,10 +213,10 @@ def fit_structure(
     if 0 < delay < NO_DELAY * record.sampling and "L" not in fixed:
         problem = FitProblem(record, structure, steps, nuisance, {**fixed, "L": 0.0})
         lags, delay = problem.solve()
-    return _described(problem, lags, delay, fixed)
+    return described(problem, lags, delay, fixed)
 
 
-def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
+def described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed: Mapping[str, float]) -> Fit:
     """Everything that is said of a fit, from its optimum."""
     from scipy.special import stdtrit
 
@@ -233,19 +224,22 @@ def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed
     residuals, coefficients = problem.eliminated(lags, delay)
     gain = float(coefficients[-1])
     values = np.array([gain, *lags, delay])
-    names = ["Kv" if structure.integrating else "Kp", *(["T"] if len(lags) == 1 else ["T1", "T2"][: len(lags)]), "L"]
+    names = ["Kv" if structure.integrating else "Kp", *structure.names, "L"]
 
     def predicted(p: np.ndarray) -> np.ndarray:
         return p[0] * structure.response(problem.time, steps.list, tuple(p[1:-1]), p[-1])
 
-    moves = np.maximum(np.abs(values), [1e-12, *[record.sampling] * (len(values) - 1)]) * 1e-4
+    floors = [1e-12, *[0.1 if name == "zeta" else record.sampling for name in names[1:]]]
+    moves = np.maximum(np.abs(values), floors) * 1e-4
     moves[-1] = max(moves[-1], record.sampling)  # the response bends at the dead time: look across a whole sample
     jacobian = np.column_stack(
         [(predicted(values + e) - predicted(values - e)) / (2 * e.sum()) for e in np.diag(moves)]
     )
     known = [i for i, name in enumerate(names) if {name, *_SAME.get(name, ())} & set(fixed)]
     free = [i for i in range(len(values)) if i not in known]
-    twins = [1, 2] if len(lags) == 2 and lags[1] > ALIKE * lags[0] and not {1, 2} & set(known) else []
+    twins = (
+        [1, 2] if structure.common and len(lags) == 2 and lags[1] > ALIKE * lags[0] and not {1, 2} & set(known) else []
+    )
     if twins:  # two lags that are one in the response: they move together, and one of them stands for both
         jacobian[:, 1] += jacobian[:, 2]
         free.remove(2)
@@ -267,7 +261,7 @@ def _described(problem: FitProblem, lags: tuple[float, ...], delay: float, fixed
         parameters,
         residuals,
         coefficients,
-        settled=float("inf") if structure.integrating else float(after / sum(lags)),
+        settled=float("inf") if structure.integrating else float(after / structure.span(lags)),
         covariance=covariance,
         answer=float(np.ptp(predicted(values))),
     )
@@ -287,7 +281,7 @@ def fit_all(
 
 def _has(structure: Structure, fixed: Mapping[str, float]) -> bool:
     """Has the structure the parameters that are fixed?"""
-    lags = {0: set(), 1: {"T"}, 2: {"T1", "T2"}}[structure.lags] | ({"T1"} if structure.integrating else set())
+    lags = set(structure.names) | ({"T1"} if structure.integrating else set())
     wanted = {name for name in fixed if name.startswith("T")}
     gain = {"K", "Kv"} if structure.integrating else {"K", "Kp"}
     return wanted <= lags and {name for name in fixed if name.startswith("K")} <= gain

@@ -13,20 +13,26 @@ from typing import Any
 
 import numpy as np
 
-from derivations.loop import robustness as d
+from loopbook.lazy import late
 from loopbook.loop.process_phase import NoSuchFrequency, frequency_at
 from loopbook.loop.stability import unstable_roots
 from loopbook.loop.transfer import LoopTransfer
 from loopbook.numerics import horner
 from loopbook.numerics.units import characteristic_time
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
+
+d = late("derivations.loop.robustness")
 
 
 @cache
 def _at_point() -> Callable[..., Any]:
-    import sympy
+    return run_text(_text(), "numpy")
 
-    return sympy.lambdify((d.a, d.b), d.joint_M(), "numpy")
+
+@kept_for()
+def _text() -> str:
+    return lambda_text((d.a, d.b), d.joint_M(), "numpy")
 
 
 def joint_M(process: Process, regulator: Any) -> float:

@@ -16,6 +16,7 @@ FEW_LEVELS = 20
 @dataclass(frozen=True)
 class Columns:
     """A table's columns by number. time: None where there is none. others: further inputs and disturbances that move.
+    setpoint: of a regulator, None where there is none.
 
     notes: what was assumed, one sentence each.
     """
@@ -24,6 +25,7 @@ class Columns:
     input: int
     output: int
     others: tuple[int, ...]
+    setpoint: int | None
     notes: tuple[str, ...]
 
 
@@ -122,7 +124,9 @@ def choose(
         notes.append(f"{role}: column '{names[chosen].text}'{more}.")
     others = [i for i in signals if i not in (u, y) and levels(data[i]) > 1]
     others = [i for i in others if names[i].says(Role.AMBIENT) or loud_u[i] > max(loud_y[i], 0)]
-    return Columns(time, u, y, tuple(others), tuple(notes))
+    wanted = [i for i in usable if i not in (u, y) and names[i].says(Role.SETPOINT) and not names[i].says(Role.TIME)]
+    wanted.sort(key=lambda i: levels(data[i]) == 1)
+    return Columns(time, u, y, tuple(others), wanted[0] if wanted else None, tuple(notes))
 
 
 def _all(names: list[Name]) -> str:

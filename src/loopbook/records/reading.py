@@ -75,8 +75,9 @@ def read_record(
     for i in (u, y):
         if cells.is_state(i):
             said.append(f"'{names[i].text}' holds words: on, open, yes and the like were read as 1, the others as 0.")
-    read = _cleaned(samples * scale, [data[u], data[y], *[data[i] for i in columns.others]])
-    others = tuple(Other(names[i].text, column) for i, column in zip(columns.others, read.values[2:], strict=True))
+    aimed = [data[columns.setpoint]] if columns.setpoint is not None else []
+    read = _cleaned(samples * scale, [data[u], data[y], *[data[i] for i in columns.others], *aimed])
+    others = tuple(Other(names[i].text, column) for i, column in zip(columns.others, read.values[2:], strict=False))
     faults = find_faults(read.time, read.values[0], read.values[1])
     described = (names[u].text or "u", names[y].text or "y", names[u].unit, names[y].unit)
     assumptions = (*said, *more, *read.notes, *faults.notes)
@@ -86,6 +87,7 @@ def read_record(
         left_out=faults.left_out,
         cut=faults.cut,
         time_unit=unit,
+        setpoint=read.values[-1] if aimed else None,
         faults=faults.notes,
     )
 

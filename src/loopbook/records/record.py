@@ -28,6 +28,7 @@ class Record:
     time: seconds from the first sample, strictly increasing, shape (n,). u, y: input and output in their own units,
     shape (n,). assumptions: what the reader took for what, one sentence each. held: (time, u) with the samples too
     whose output is missing, None where none is: the input may step at one of them. others: further inputs that move.
+    setpoint: that of a regulator, where the log has one, shape (n,).
     left_out: samples that a fit must not use (outliers, a sensor at its limit), shape (n,), None for none. cut: the
     share of samples at a sensor's limit. time_unit: of the file's column. faults: what the sensor did wrong.
 
@@ -52,6 +53,7 @@ class Record:
     left_out: np.ndarray | None = None
     cut: float = 0.0
     time_unit: str = "s"
+    setpoint: np.ndarray | None = None
     faults: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -8,14 +8,16 @@ from fractions import Fraction
 from math import pi, radians
 from typing import Any, NamedTuple
 
-from derivations.tuning import pid_by_angles as by_angles
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidParallel
+from loopbook.lazy import late
 from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
+
+by_angles = late("derivations.tuning.pid_by_angles")
 
 SOURCE = "a zero and a pole by their angles at the crossover frequency; double-tank, the fine-tuned PID"
 
@@ -71,10 +73,11 @@ def _decimal(value: float) -> Any:
 def pid(process: Process, w: Any, phase_margin: Any, zero: Any = None, pole: Any = 0.01) -> PidParallel:
     """The same as a controller, all parts acting on the error.
 
-    >>> from loopbook.loop.continuous import Loop
-    >>> plant = Process.fopdt(1, 5, 2)
-    >>> round(Loop(plant, pid(plant, 0.3, pi / 3)).margins().phase, 9)
-    60.0
+        >>> from loopbook.lazy import late
+    from loopbook.loop.continuous import Loop
+        >>> plant = Process.fopdt(1, 5, 2)
+        >>> round(Loop(plant, pid(plant, 0.3, pi / 3)).margins().phase, 9)
+        60.0
     """
     return PidParallel(
         **{name: float(value) for name, value in parameters(process, w, phase_margin, zero, pole).items()}

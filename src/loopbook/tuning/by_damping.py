@@ -7,14 +7,17 @@ second order (PID, with a third pole at -alpha w0) without zeros and without dea
 from functools import cache
 from typing import Any
 
-from derivations.tuning import by_damping
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
+from loopbook.lazy import late
 from loopbook.numerics.real_numbers import positive
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
+
+by_damping = late("derivations.tuning.by_damping")
 
 SOURCE = "K. J. Åström and T. Hägglund, PID Controllers: Theory, Design, and Tuning (1995), section 4.4"
 OPTIONS = {"w0": "the loop's natural frequency [rad/s]", "zeta": "its damping ratio"}
@@ -23,12 +26,15 @@ THIRD = {"alpha": "the third pole is at -alpha w0, default 1"}
 
 @cache
 def _formulas(order: int) -> Any:
-    import sympy
+    return run_text(_text(order), "math")
 
+
+@kept_for((1,), (2,))
+def _text(order: int) -> str:
     found = by_damping.pi() if order == 1 else by_damping.pid()
     letters = [by_damping.b, *(by_damping.a_2, by_damping.a_1, by_damping.a_0)[2 - order :]]
     letters += [by_damping.omega_0, by_damping.zeta, *([by_damping.alpha] if order == 2 else [])]
-    return sympy.lambdify(letters, list(found.values()), "math")
+    return lambda_text(letters, list(found.values()), "math")
 
 
 def gains(process: Process, w0: float, zeta: float, alpha: float = 1.0) -> tuple[float, float, float]:

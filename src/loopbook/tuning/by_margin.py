@@ -10,14 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from derivations.tuning import pi_by_margin
 from derivations.tuning.takes import Takes
 from loopbook.controllers.pid_forms import PidStandard
+from loopbook.lazy import late
 from loopbook.numerics.real_numbers import positive, real
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.transfer_function import Process
 from loopbook.tuning.process_data import ProcessData
 from loopbook.tuning.result import RuleDoesNotApply, Tuning
 from loopbook.tuning.rule import TuningRule
+
+pi_by_margin = late("derivations.tuning.pi_by_margin")
 
 SOURCE = (
     "phase and magnitude at the crossover frequency; Åström and Hägglund, Advanced PID Control (2006), loop shaping"
@@ -26,10 +29,13 @@ SOURCE = (
 
 @cache
 def _formulas() -> Any:
-    import sympy
+    return run_text(_text(), "math")
 
+
+@kept_for()
+def _text() -> str:
     letters = [pi_by_margin.w, pi_by_margin.g, pi_by_margin.phase, pi_by_margin.margin]
-    return sympy.lambdify(letters, list(pi_by_margin.gains().values()), "math")
+    return lambda_text(letters, list(pi_by_margin.gains().values()), "math")
 
 
 def gains(process: Process, w: float, phase_margin: float) -> tuple[float, float]:

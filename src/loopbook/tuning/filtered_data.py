@@ -3,9 +3,11 @@
 from dataclasses import replace
 from typing import Any
 
-from derivations.tuning import amigo
 from loopbook.experiments.data import StepData, TwoLagData
+from loopbook.lazy import late
 from loopbook.tuning.result import RuleDoesNotApply
+
+amigo = late("derivations.tuning.amigo")
 
 
 def with_filter(data: Any, Tf: float) -> Any:

@@ -6,14 +6,18 @@ clearance |C + L(i w)| - R on grids that see every approach to the circle.
 
 import math
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from derivations.loop import robustness as d
+from loopbook.lazy import late
+from loopbook.printed.store import kept_for, lambda_text, run_text
 from loopbook.process.frequency_response import response
 from loopbook.process.transfer_function import Process
+
+d = late("derivations.loop.robustness")
 
 M_DEFAULT = 1.4
 TOLERANCE = 1e-7  # of the distance to the circle: what rounding may take off it
@@ -26,23 +30,38 @@ def circle(M: float) -> tuple[float, float]:
     >>> circle(2.0)
     (1.25, 0.75)
     """
-    import sympy
-
     if not M > 1:
         raise ValueError(f"M = {M}: a loop's largest sensitivity exceeds 1, so M must")
+    above_centre, below_centre, above_radius, below_radius = _circle()(Fraction(M))
+    return -float(above_centre / below_centre), float(above_radius / below_radius)
+
+
+@cache
+def _circle() -> Callable[..., tuple[Fraction, ...]]:
+    return run_text(_circle_text(), "math")
+
+
+@kept_for()
+def _circle_text() -> str:
+    """Numerator and denominator of centre and radius, whole polynomials, so that fractions stay exact."""
+    import sympy
+
     joint = d.joint_circle()
-    at = {d.M: sympy.Float(M, 30)}
-    return -float(joint.centre.subs(at)), float(joint.radius.subs(at))
+    parts = [part for e in (joint.centre, joint.radius) for part in sympy.fraction(sympy.cancel(e))]
+    return lambda_text([d.M], parts, "math")
 
 
 @cache
 def _branch_functions() -> list[Callable[..., np.ndarray]]:
     """k, ki and kd of the smooth branch as NumPy functions of (w, a, b, r, da, db, C, R)."""
-    import sympy
+    return [run_text(text, "numpy") for text in _branch_texts()]
 
+
+@kept_for()
+def _branch_texts() -> list[str]:
     found = d.smooth_branch()
     arguments = (d.w, d.a, d.b, d.r, d.da, d.db, d.C, d.R)
-    return [sympy.lambdify(arguments, e, "numpy", cse=True) for e in (found.k, found.k_i.subs(d.k_d, 0), found.k_d)]
+    return [lambda_text(arguments, e, "numpy", cse=True) for e in (found.k, found.k_i.subs(d.k_d, 0), found.k_d)]
 
 
 def smooth_branch(process: Process, w: np.ndarray, M: float = M_DEFAULT) -> np.ndarray:

@@ -12,10 +12,9 @@ from dataclasses import replace
 from functools import cache
 from importlib import import_module
 
-from derivations.tuning.catalogue import catalogue
 from derivations.tuning.takes import Takes
 from loopbook.refusal import Refusal
-from loopbook.tuning.formulas import as_tuning_rule
+from loopbook.tuning.formulas import published
 from loopbook.tuning.rule import TuningRule
 
 FOLDER = "loopbook.tuning"
@@ -34,7 +33,7 @@ def rules() -> dict[str, TuningRule]:
     >>> list(rules())[:3]
     ['zn-step-p', 'zn-step-pi', 'zn-step-pid']
     """
-    found = [as_tuning_rule(rule) for rule in catalogue().values()]
+    found = published()
     for module in sorted(m.name for m in pkgutil.iter_modules(import_module(FOLDER).__path__)):
         computed = getattr(import_module(f"{FOLDER}.{module}"), "computed", None)
         found += computed() if computed else ()

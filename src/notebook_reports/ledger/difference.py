@@ -52,7 +52,7 @@ def as_text(changes: Sequence[files.Change], ref: str) -> str:
 
 
 def as_markdown(changes: Sequence[files.Change], ref: str) -> str:
-    """The same for a review: whatever stands in the ledger is text there, never markup, a link or a mention."""
+    """The same for a review: whatever stands in the ledger is text there, never markup or a link."""
     lines = [f"**{as_plain_markdown(_headline(changes, ref))}**", ""]
     for table, title in TITLES.items():
         mine = [c for c in changes if c.table == table]
@@ -68,7 +68,8 @@ def _headline(changes: Sequence[files.Change], ref: str) -> str:
     moved = sum(c.moved for c in changes)
     if not changes:
         return f"The ledger is that of {ref}"
-    told = f"{len(changes)} rows of the ledger are not as in {ref}; {moved} of them moved"
+    rows = "1 row of the ledger is" if len(changes) == 1 else f"{len(changes)} rows of the ledger are"
+    told = f"{rows} not as in {ref}; {moved} of them moved"
     return told + ": a verdict, a printed digit, a row that went"
 
 

@@ -46,6 +46,38 @@ def test_the_page_to_the_letter(tmp_path, monkeypatch):
     assert "first.xml" in files and Path("grades/grades.csv").read_text().count("\n") == 4
 
 
+@pytest.mark.builds
+@pytest.mark.whole
+def test_the_tutorial_to_the_letter(tmp_path, monkeypatch):
+    page = (ROOT / "docs/tutorials/first-sheet.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    new_course(tmp_path / "practice")
+    monkeypatch.chdir(tmp_path / "practice")
+    (secret,) = re.findall(r'echo "(.*)" > ../practice.secret', page)
+    Path("../practice.secret").write_text(f"{secret}\n")
+    said = []
+    for words in (line.split() for line in re.findall(r"^ +(loopbook course .*)$", page, re.MULTILINE)):
+        if words[2] == "grade":
+            Path("submissions").mkdir()
+            for student, name in re.findall(r"out/students/(\w+)/first.ipynb submissions/(\w+).ipynb", page):
+                (values,) = re.findall(rf"`{name}.ipynb` \| `(.*)` \| `(.*)` \|", page)
+                released = json.loads(Path(f"out/students/{student}/first.ipynb").read_text())
+                released["cells"][-1]["source"] = f"answers = {{'Kc': {values[0]}, 'rise': {values[1]}}}"
+                Path(f"submissions/{name}.ipynb").write_text(json.dumps(released))
+            (typed,) = re.findall(r"printf '(.*)' > submissions/first.csv", page)
+            Path("submissions/first.csv").write_text(typed.replace("\\n", "\n"))
+        done = CliRunner().invoke(main, words[1:], catch_exceptions=False)
+        assert done.exit_code == 0, (words, done.output)
+        said.append(done.output)
+    check, release, grade = said
+    assert all(f"`{line}`" in page and line in check for line in ("Kc = 1.88 %/cm", "rise = 16.5 s"))
+    assert release.strip().splitlines()[-1] in page and grade.splitlines()[0] in page
+    shown = re.search(r"^ +student,name,first(.*?)\n\n", page, re.MULTILINE | re.DOTALL).group()
+    assert Path("grades/grades.csv").read_text().split() == shown.split()
+    words = re.sub(r"\s+", " ", Path("grades/feedback/s02/first.html").read_text())
+    assert "gain of the tank left out" in words and "right from your own Kc" in words
+
+
 def test_a_course_is_made_whole_or_not(tmp_path):
     names = [p.as_posix() for p in new_course(tmp_path / "c")]
     assert names == [".gitignore", "README.md", "roster.csv", "sheets/first.ipynb"]

@@ -10,6 +10,10 @@ sys.path.insert(0, str(Path(__file__).parent / "acceptance"))
 import prove_design as prove
 from synthetic import FAULTS, GUISES, make
 
+from loopbook.identification.choice import identify
+from loopbook.records.reading import read_record
+from loopbook.records.record import RecordError
+
 pytestmark = pytest.mark.long
 
 
@@ -45,3 +49,10 @@ def test_a_wrong_design_does_not_hold(tmp_path, monkeypatch, share):
     monkeypatch.setattr(Study, "results", tripled)
     verdicts = [r.verdict for r in prove.prove(range(share(3, 6)), tmp_path)]
     assert verdicts.count("held") < len(verdicts) / 2
+
+
+def test_a_settling_process_that_is_not_determined_is_not_taken_for_an_integrating_one(tmp_path):
+    """A long ramp beside a second input: the lag is open, and a settling model explains it far better all the same."""
+    made = make(1000, tmp_path)
+    with pytest.raises(RecordError, match="not determined: of the best fit"):
+        identify(read_record(made.file))

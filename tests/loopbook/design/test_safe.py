@@ -9,6 +9,7 @@ import pytest
 
 from loopbook.design.model import ModelError
 from loopbook.design.study import Study
+from loopbook.loop.continuous import Loop
 from loopbook.process.transfer_function import Process
 from loopbook.records.record import RecordError
 from tools import example_record as example
@@ -193,9 +194,6 @@ REFUSED = {
     "no answer": (STEP, _noise(len(T), 1.0), "does not answer|lost in the noise|not determined"),
     "drift": (STEP, 0.02 * T + _noise(len(T), 0.02), "a drift explains"),
     "closed loop": (*_pi_loop(), "closed loop"),
-    "underdamped": (STEP, _ringing() + _noise(len(T), 0.01), "underdamped: its response rings with a period of 31"),
-    "underdamped in noise": (STEP, _ringing() + _noise(len(T), 0.3), "underdamped: its response rings"),
-    "inverse response": (STEP, _beside(4.0, 20.0, -3.0, 6.0) + _noise(len(T), 0.01), "first goes the wrong way"),
     "a zero that overshoots": (
         STEP,
         _beside(-1.0, 30.0, 3.0, 8.0) + _noise(len(T), 0.01),
@@ -225,6 +223,28 @@ def test_a_record_that_gives_no_regulator_is_refused_with_the_true_reason(tmp_pa
     with pytest.raises(RecordError, match=message) as refused:
         Study(written(tmp_path / "r.csv", T, u, y)).results()
     assert "leaves 0 %" not in str(refused.value)
+
+
+def test_a_process_that_rings_gets_a_regulator_that_does_not(tmp_path):
+    file = written(tmp_path / "r.csv", T, STEP, _ringing() + _noise(len(T), 0.01))
+    study = Study(file)
+    assert study.model.damping == pytest.approx(0.148, abs=0.01)
+    assert study.results()["process"]["damping"] == study.model.damping
+    truth = Process([2.0 * (0.2**2 + 0.03**2)], [1.0, 0.06, 0.2**2 + 0.03**2])
+    loop = Loop(truth, study.recommendation.chosen.candidate.pid)
+    assert loop.is_stable and loop.margins().Ms.value < 2
+    with pytest.raises(RecordError, match="underdamped: its response rings with a period of 31"):
+        Study(file, known="T=20").results()
+
+
+def test_a_process_that_starts_the_wrong_way_is_seen_and_kept_slow(tmp_path):
+    truth = Process([-12.0, 2.0], [50.0, 15.0, 1.0], 2.0)
+    file = written(tmp_path / "r.csv", T, STEP, truth.step(T - 50) + _noise(len(T), 0.02))
+    study = Study(file)
+    assert study.model.zero == pytest.approx(6.0, rel=0.15)
+    assert study.results()["process"]["zero"] == study.model.zero
+    loop = Loop(truth, study.recommendation.chosen.candidate.pid)
+    assert loop.is_stable and loop.margins().Ms.value < 2
 
 
 def test_two_equal_lags_are_determined(tmp_path):
@@ -287,3 +307,16 @@ def test_a_speed_that_the_process_does_not_allow_is_refused_and_what_lacks_is_in
         _ = Study(OWN / "no_dead_time.toml", closed_loop=0.001).recommendation
     loud = Study(OWN / "time_ms_suffix.csv", speed=1.0).results()
     assert any("would shake the input" in text for text in loud["mind"])
+
+
+UNUSUAL = {
+    "rings in noise": (_ringing() + _noise(len(T), 0.3), "damping", 0.148, 0.1),
+    "starts the wrong way": (_beside(4.0, 20.0, -3.0, 6.0) + _noise(len(T), 0.01), "zero", 36.0, 8.0),
+}
+
+
+@pytest.mark.parametrize("what", UNUSUAL)
+def test_what_once_was_refused_for_its_shape_has_a_model_of_that_shape(tmp_path, what):
+    y, name, value, off = UNUSUAL[what]
+    model = Study(written(tmp_path / "r.csv", T, STEP, y)).model
+    assert getattr(model, name) == pytest.approx(value, abs=off)

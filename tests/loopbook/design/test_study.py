@@ -19,6 +19,7 @@ from tools import example_record as example
 
 pytestmark = pytest.mark.long
 
+EXAMPLE = Path(__file__).parents[3] / "notebooks" / "own_process" / "example.csv"
 HEATED = Process.fopdt(0.68, 150.0, 18.0)
 
 
@@ -179,3 +180,24 @@ def test_after_derive_a_design_derives_nothing_more(tmp_path):
     for f, was in zip(cached, before, strict=True):
         now = f.cache_info()
         assert now.misses == was.misses and now.hits > was.hits, f
+
+
+def test_the_setting_is_given_in_every_controller_s_form(tmp_path):
+    """The same numbers in JSON, in percent only where the ranges are known, refused with the reason."""
+    study = Study(EXAMPLE, u_low=0, u_high=100, y_low=0, y_high=150)
+    forms = {form["form"]: form for form in study.results()["enter"]}
+    pid = study.recommendation.chosen.candidate.pid
+    entries = {e["name"]: e["value"] for e in forms["rockwell-pide-dependent"]["entries"]}
+    assert entries["PGain"] == pytest.approx(abs(pid.K) * 150 / 100)
+    assert entries["IGain"] == pytest.approx(pid.Ti / 60)
+    assert forms["siemens-pid-compact"]["Ms"] == pytest.approx(study.recommendation.chosen.Ms, rel=1e-6)
+    refused = forms["honeywell-udc-gain"]
+    assert ("refused" in refused) is bool(pid.Td)
+    unknown = {form["form"]: form for form in Study(EXAMPLE).results()["enter"]}
+    gain = unknown["rockwell-pide-dependent"]["entries"][0]
+    assert gain["value"] is None and gain["per_span"] * 150 == pytest.approx(entries["PGain"], rel=1e-6)
+
+
+def test_half_a_measuring_range_is_refused():
+    with pytest.raises(ModelError, match="a measuring range has both"):
+        Study(EXAMPLE, y_low=0.0)

@@ -10,8 +10,10 @@ from loopbook.identification.models import (
     FIRST_ORDER,
     INTEGRATING,
     INTEGRATING_LAG,
+    INVERSE_RESPONSE,
     SECOND_ORDER,
     STRUCTURES,
+    UNDERDAMPED,
     Structure,
 )
 from loopbook.process.transfer_function import Process
@@ -278,3 +280,28 @@ def test_the_fit_gives_a_process():
     fit = fit_structure(made(FIRST_ORDER, (2.0, 10.0, 3.0), 0.0), FIRST_ORDER)
     assert isinstance(fit.process, Process)
     assert (fit.process.static_gain, fit.process.delay) == pytest.approx((2.0, 3.0), rel=1e-3)
+
+
+RINGING, WRONG_WAY = (2.0, 8.0, 0.25, 3.0), (2.0, 10.0, 5.0, 6.0, 2.0)
+
+
+@pytest.mark.parametrize(("structure", "values"), [(UNDERDAMPED, RINGING), (INVERSE_RESPONSE, WRONG_WAY)])
+def test_unusual_structures_are_recovered_within_their_intervals(structure, values):
+    """The response is that of the process, by another route; each parameter's interval holds it."""
+    hits, process = np.zeros(len(values)), structure.process(values[0], values[1:-1], values[-1])
+    time = np.arange(0.0, 150.0, 0.5)
+    clean = process.step(time - 10.0)
+    assert np.allclose(values[0] * structure.response(time, [(10.0, 1.0)], values[1:-1], values[-1]), clean, atol=1e-8)
+    for seed in range(5):
+        y = 20 + clean + np.random.default_rng(seed).normal(0, 0.03, len(time))
+        found = identify(Record(time, np.where(time >= 10, 1.0, 0.0), y)).chosen
+        assert found.structure is structure
+        hits += [p.interval[0] <= v <= p.interval[1] for p, v in zip(found.parameters, values, strict=True)]
+    assert (hits >= 4).all(), hits
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_unusual_structures_are_not_chosen_where_lags_made_the_record(seed):
+    structure = (FIRST_ORDER, SECOND_ORDER, INTEGRATING_LAG)[seed % 3]
+    found = identify(made(structure, TRUE[structure][0], TRUE[structure][1], seed))
+    assert found.chosen.structure.common and all(s.common for s in found.fits)

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 from click.testing import CliRunner
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from notebook_reports.cli import main
@@ -59,7 +59,9 @@ def test_a_commit_that_is_none(project, ref):
     assert not (project / "pwn").exists()
 
 
-@given(st.text(max_size=60))
+@given(st.one_of(st.text(max_size=60), st.text("`*_~[]()<>!|#\\&;:/.@ab\n", max_size=30)))
+@example("`a` *b* _c_ ~~d~~ [e](f) ![g](h) <i> j|k &amp; https://l.m")
+@example("# a")
 def test_markdown_shows_what_stands_in_the_ledger(text):
     from html import unescape
 
@@ -68,3 +70,8 @@ def test_markdown_shows_what_stands_in_the_ledger(text):
     shown = mistune.create_markdown(plugins=["table", "url"])(f"x{as_plain_markdown(text)}x")
     words = " ".join("".join(c if c.isprintable() else " " for c in text).split())
     assert unescape(shown) == f"<p>x{words}x</p>\n"
+
+
+def test_every_character_that_marks_something_is_escaped():
+    marks = "\\`*_{}[]<>()#+-.!|~@$&:"
+    assert as_plain_markdown(marks) == "".join(f"\\{c}" for c in marks)
