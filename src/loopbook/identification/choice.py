@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 
 from loopbook.identification import diagnosis
 from loopbook.identification.closed_loop import closed_steps, fit_all_closed, recognised
-from loopbook.identification.criteria import criteria_of, criterion, effective_samples, size_of
+from loopbook.identification.criteria import CLEARLY_BETTER, criteria_of, criterion, effective_samples, size_of
 from loopbook.identification.directions import CLEARLY_DIFFERENT, Directions, fit_directions
 from loopbook.identification.fit import Fit
 from loopbook.identification.least_squares import fit_all
-from loopbook.identification.models import FIRST_ORDER, INTEGRATING, SECOND_ORDER, Structure
+from loopbook.identification.models import FIRST_ORDER, INTEGRATING, Structure
 from loopbook.identification.oscillation import Oscillation, find_oscillation, integrator_through
+from loopbook.identification.reasons import both_ways, limits_of_use, why_chosen
 from loopbook.identification.unusual import asks, unusual_fits
 from loopbook.loop.ultimate_point import NoSuchFrequency, ultimate
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
@@ -18,7 +19,6 @@ from loopbook.process.transfer_function import Process
 from loopbook.records.record import Record, RecordError
 from loopbook.records.steps import Steps, find_steps
 
-CLEARLY_BETTER = 10.0  # Akaike's criterion: a difference beyond 10 leaves the other model no support
 POOREST_FIT = 40.0  # percent
 HALF = 0.5  # of the samples at a limit of the sensor: where nothing else can be seen, that is why
 GOOD_FIT, PATTERN = 97.0, 0.5  # percent; correlation of residuals that shows a pattern
@@ -129,8 +129,8 @@ def _identified(record: Record, fixed: Mapping[str, float] | None) -> Identified
     fit = fits[chosen]
     _refuse(diagnosis.below_sample(record, fit))
     _refuse(diagnosis.extrapolated(record, steps, fit))
-    reasons = _reasons(fits, criteria, chosen, usable) if directions is None else _both(directions)
-    warnings = (*record.faults, *_warnings(fit, fits, steps))
+    reasons = why_chosen(fits, criteria, chosen, usable) if directions is None else both_ways(directions)
+    warnings = (*record.faults, *limits_of_use(fit, fits, steps))
     return Identified(record, steps, fits, criteria, fit, tuple(reasons), warnings, directions)
 
 
@@ -177,10 +177,10 @@ def _closed(record: Record, fixed: Mapping[str, float] | None) -> Identified:
     reasons = [
         f"The record was made in closed loop: the input follows set-point and measurement. The process was identified "
         f"from {many} by prediction error with a model of the noise, which is consistent with a regulator at work.",
-        *_reasons(fits, criteria, chosen, usable),
+        *why_chosen(fits, criteria, chosen, usable),
     ]
     return Identified(
-        record, steps, fits, criteria, fits[chosen], tuple(reasons), tuple(_warnings(fits[chosen], fits, steps))
+        record, steps, fits, criteria, fits[chosen], tuple(reasons), tuple(limits_of_use(fits[chosen], fits, steps))
     )
 
 
@@ -256,61 +256,3 @@ def _unusual(record: Record, steps: Steps, fits: dict[Structure, Fit], best: Fit
     effective = effective_samples([*fits.values(), *found], n)
     gain = criterion(best, size_of(best), effective) - criterion(better, size_of(better), effective)
     return better if gain > CLEARLY_BETTER and better.fit > POOREST_FIT else None
-
-
-def _both(directions: Directions) -> list[str]:
-    up, down = directions.up, directions.down
-    return [
-        f"The process is not the same both ways: T = {up.lags[0]:.3g} s while the output rises, {down.lags[0]:.3g} s "
-        f"while it falls. A first-order model for each explains {up.fit:.1f} % of the response.",
-        f"The design is for the worse one, T = {directions.worse.lags[0]:.3g} s, and is checked on the other.",
-    ]
-
-
-def _reasons(
-    fits: dict[Structure, Fit], criteria: dict[Structure, float], chosen: Structure, usable: list[Structure]
-) -> list[str]:
-    fit = fits[chosen]
-    reasons = [f"{chosen.name.capitalize()} explains {fit.fit:.1f} % of the response (rms residual {fit.rmse:.3g})."]
-    if fit.nuisance == "start":
-        reasons.append("The record starts off rest; the state at its first sample was estimated along with the model.")
-    for name, effect in fit.effects.items():
-        reasons.append(f"{name} moves too; its effect (gain {effect:.3g}) was estimated along with the model.")
-    for other in (s for s in fits if s is not chosen):
-        if other not in usable:
-            reasons.append(f"{other.name.capitalize()}: the record does not determine its parameters.")
-        elif criteria[other] - criteria[chosen] > CLEARLY_BETTER:
-            reasons.append(
-                f"{other.name.capitalize()} fits clearly worse ({fits[other].fit:.1f} %, "
-                f"Akaike +{criteria[other] - criteria[chosen]:.0f})."
-            )
-        else:
-            reasons.append(f"{other.name.capitalize()} fits no better to speak of ({fits[other].fit:.1f} %).")
-    return reasons
-
-
-def _warnings(fit: Fit, fits: dict[Structure, Fit], steps: Steps) -> list[str]:
-    """What limits the use of the model."""
-    found = [note for note in steps.notes if "uncertain" in note or "at rest" in note]
-    if fit.settled < 3:
-        found.append(
-            f"The record ends {fit.settled:.1f} time constants after the last step, before the output has settled: "
-            "the gain is an extrapolation. A record of four time constants or more would determine it."
-        )
-    gain = fit.parameters[0]
-    if gain.half_width > 0.2 * abs(gain.value):
-        found.append(f"The gain is uncertain by {100 * gain.half_width / abs(gain.value):.0f} %.")
-    delay = fit.parameters[-1]
-    if 0 < delay.value < delay.half_width:
-        found.append(
-            f"The dead time ({delay.value:.3g} s) cannot be told from zero (± {delay.half_width:.2g} s): rules that "
-            "divide by L would ask for gains the data do not support."
-        )
-    if delay.value == 0:
-        found.append("No dead time was seen: it is below half a sampling interval, and the model has none.")
-    second = fits.get(SECOND_ORDER)
-    if fit.structure is FIRST_ORDER and fit.correlation > 0.9 and second and second.rmse < 0.8 * fit.rmse:
-        found.append("The residuals have structure: a second lag may be there.")
-    if fit.fit < 80:
-        found.append(f"The model leaves {100 - fit.fit:.0f} % of the response unexplained.")
-    return found

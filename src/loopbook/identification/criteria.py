@@ -5,6 +5,8 @@ import numpy as np
 from loopbook.identification.fit import Fit
 from loopbook.identification.models import Structure
 
+CLEARLY_BETTER = 10.0  # Akaike's criterion: a difference beyond 10 leaves the other model no support
+
 
 def size_of(fit: Fit) -> int:
     """How many numbers a fit took."""

@@ -73,11 +73,10 @@ def _decimal(value: float) -> Any:
 def pid(process: Process, w: Any, phase_margin: Any, zero: Any = None, pole: Any = 0.01) -> PidParallel:
     """The same as a controller, all parts acting on the error.
 
-        >>> from loopbook.lazy import late
-    from loopbook.loop.continuous import Loop
-        >>> plant = Process.fopdt(1, 5, 2)
-        >>> round(Loop(plant, pid(plant, 0.3, pi / 3)).margins().phase, 9)
-        60.0
+    >>> from loopbook.loop.continuous import Loop
+    >>> plant = Process.fopdt(1, 5, 2)
+    >>> round(Loop(plant, pid(plant, 0.3, pi / 3)).margins().phase, 9)
+    60.0
     """
     return PidParallel(
         **{name: float(value) for name, value in parameters(process, w, phase_margin, zero, pole).items()}

@@ -18,13 +18,12 @@ TD = 1.0
 class Price:
     """noise: standard deviation of the slope per unit of white noise in the samples [1/s].
 
-    late: how much later a ramp's slope is right [s]. ahead: how far the derivative still looks ahead [s]. phase_margin
-    [degrees] and Ms: of the loop with the filter; NaN and infinity where it is not stable.
+    late: how much later a ramp's slope is right [s]. phase_margin [degrees] and Ms: of the loop with the filter; NaN
+    and infinity where it is not stable.
     """
 
     noise: float
     late: float
-    ahead: float
     phase_margin: float
     Ms: float
 
@@ -53,6 +52,6 @@ def price(Tf: float, h: float) -> Price:
     """
     closed, late = loop(Tf, h), Tf + h / 2
     if not closed.is_stable:
-        return Price(noise(Tf, h), late, TD - late, math.nan, math.inf)
+        return Price(noise(Tf, h), late, math.nan, math.inf)
     margins = closed.margins()
-    return Price(noise(Tf, h), late, TD - late, margins.phase, margins.Ms.value)
+    return Price(noise(Tf, h), late, margins.phase, margins.Ms.value)
