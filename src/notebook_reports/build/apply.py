@@ -16,8 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from notebook_reports.build.job import Done, Job, Wanted, plan
-from notebook_reports.build.work import Outcome, _cores, _finish, _work
+from notebook_reports.build.work import Outcome, _finish, _work
 from notebook_reports.build.writing import reporter
+from notebook_reports.executors.executor import cores
 from notebook_reports.project import atomic, runtime
 from notebook_reports.project.console import Console
 from notebook_reports.project.parameters import assign
@@ -187,7 +188,7 @@ def apply(
         for path in sorted({p.parent for job in todo for p in job.outputs.values()}):
             path.mkdir(parents=True, exist_ok=True)
             atomic.writable(path)
-        done = _work(project, todo, settings, jobs or _cores(), console, ready)
+        done = _work(project, todo, settings, jobs or cores(), console, ready)
         failed = {one.notebook.path for one in done if one.failures}
         again = [str(item.data) for job, item in zip(todo, wanted, strict=True) if job.notebook.path in failed]
         command = shlex.join([*repeat, *again, *given])
