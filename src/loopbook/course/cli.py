@@ -208,9 +208,9 @@ def sheet_path(name: str) -> Path:
 
 
 def _executor(jobs: int | None, cluster: str | None) -> "Executor":
-    from notebook_reports.executors.choose import choose
+    from notebook_reports.executors.asked import executor_for
 
-    return choose(
+    return executor_for(
         jobs, cluster, PACKAGES, (*NUMBERS, "loopbook.course.release.one", "loopbook.course.grade.one", *PRINTING)
     )
 

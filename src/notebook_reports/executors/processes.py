@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from multiprocessing import get_all_start_methods, get_context
 from multiprocessing.context import BaseContext
 
@@ -21,7 +22,7 @@ class Processes:
         while waiting:
             alone = any(waiting.values())  # after a process was killed, one at a time: then it is known by whose job
             todo = list(waiting)[:1] if alone else list(waiting)
-            with surroundings(), ProcessPoolExecutor(1 if alone else self.number, self._context()) as pool:
+            with surroundings(), self._pool(1 if alone else self.number) as pool:
                 futures: dict[Future[Result], int] = {pool.submit(function, jobs[place]): place for place in todo}
                 for future in as_completed(futures):
                     place = futures[future]
@@ -36,6 +37,19 @@ class Processes:
                         found = error
                     del waiting[place]
                     yield place, found
+
+    @contextmanager
+    def _pool(self, number: int) -> Iterator[ProcessPoolExecutor]:
+        """Ended at once where the run is broken off."""
+        with ProcessPoolExecutor(number, self._context()) as pool:
+            try:
+                yield pool
+            except BaseException:
+                processes = list((pool._processes or {}).values())
+                pool.shutdown(wait=False, cancel_futures=True)
+                for process in processes:
+                    process.kill()
+                raise
 
     def _context(self) -> BaseContext:
         if "forkserver" not in get_all_start_methods():

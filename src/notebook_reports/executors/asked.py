@@ -7,7 +7,7 @@ from notebook_reports.executors.executor import Executor
 from notebook_reports.executors.processes import Processes
 
 
-def choose(jobs: int | None, cluster: str | None, packages: Sequence[str], preloaded: Sequence[str]) -> Executor:
+def executor_for(jobs: int | None, cluster: str | None, packages: Sequence[str], preloaded: Sequence[str]) -> Executor:
     """Processes here, so many as `jobs` says (None: one per core), or the workers that `cluster` names.
 
     packages: whose sources have to be the same on every worker, the one that is installed last. preloaded: modules
