@@ -177,7 +177,7 @@ def apply(
             folder.mkdir()
             label = item.label or item.data.stem
             copied = folder / f"{label}.ipynb"
-            copied.write_text(_without(notebook.read_text(encoding="utf-8"), leave_out), encoding="utf-8")
+            copied.write_text(without(notebook.read_text(encoding="utf-8"), leave_out), encoding="utf-8")
             shutil.copyfile(item.data, folder / item.data.name)
             source = read_source(copied)
             values = assign(source, [*parameters, (parameter, item.data.name)])
@@ -198,7 +198,7 @@ def apply(
         return _finish(project, done, failures, todo, console)
 
 
-def _without(notebook: str, tags: frozenset[str]) -> str:
+def without(notebook: str, tags: frozenset[str]) -> str:
     """A notebook's text without the cells that have one of the tags."""
     if not tags:
         return notebook
@@ -230,8 +230,13 @@ def _report(
     if format in programs:
         return programs[format](_shown(content), stems[notebook.path.stem][format])
     if format != "json":
-        return reporter()(content if code else _codeless(content), format, notebook, *about)
+        return report_of(content, format, notebook, *about, code)
     return (json.dumps(_shown(content), indent=2, ensure_ascii=False) + "\n").encode()
+
+
+def report_of(content: dict, format: str, notebook: Notebook, title: str, code: bool) -> bytes:
+    """A report to be read, of an executed notebook from elsewhere. code: show it."""
+    return reporter()(content if code else _codeless(content), format, notebook, title)
 
 
 def _shown(content: dict) -> dict:
