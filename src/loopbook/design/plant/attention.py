@@ -24,9 +24,9 @@ LEAST_FIT = 80.0  # % of the response
 
 @dataclass(frozen=True)
 class Row:
-    """One loop. failed, refused: why there is no design, "" where there is one. fit [%], Ms, overshoot [%], settling [s],
-    at_limit (share of the samples): None where unknown. lacks: does the program not keep what the aim asks? mind: the
-    cautions. process, settings: as they are shown.
+    """One loop. failed, refused: why there is no design, "" where there is one. fit [%], Ms, overshoot [%], settling
+    [s], at_limit (share of the samples), the process and its settings: None where unknown. lacks: does the program not keep
+    what the aim asks? mind: the cautions.
     """
 
     name: str
@@ -68,12 +68,13 @@ class Row:
         state = self.state
         if state in (FAILED, REFUSED):
             return self.failed or self.refused
+        said = any("unexplained" in text for text in self.mind)
         told = {
             FRAGILE: f"Ms is {self.Ms or 0:.2f}.",
             LIMITED: f"{100 * (self.at_limit or 0):.0f} % of the samples are at a limit.",
-            DOUBTFUL: f"The model explains {self.fit or 0:.0f} % of the response.",
+            DOUBTFUL: "" if said else f"The model explains {self.fit or 0:.0f} % of the response.",
         }
-        return " ".join([*([told[state]] if state in told else []), *self.mind])
+        return " ".join(filter(None, [told.get(state, ""), *self.mind]))
 
 
 def ranked(rows: Iterable[Row]) -> list[Row]:
