@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
-from notebook_reports.executors.executor import TRIES, Job, Result, surroundings
+from notebook_reports.executors.executor import TRIES, Job, Result, Results, surroundings
 from notebook_reports.executors.served import Ended, Served
 from notebook_reports.executors.sources import fingerprint
 from notebook_reports.project.project import EnvironmentProblem, UsageError
@@ -35,7 +35,7 @@ class Cluster:
         if where.isdecimal() and int(where) < 1:
             raise UsageError("--cluster 0: at least one worker")
 
-    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Iterator[tuple[int, Result | Exception]]:
+    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Results:
         """(place in the list, what it gave or the exception that it raised), as they end.
 
         Raises EnvironmentProblem where there is no cluster, where its workers have not the same loopbook, and where it

@@ -7,7 +7,7 @@ of every other, and the bytes that come of it do not depend on which.
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,6 +19,8 @@ from notebook_reports.run.surroundings import environment
 TRIES = 3
 Job = Any
 Result = Any
+Results = Generator[tuple[int, Result | Exception], None, None]
+"""To be closed where it is not read to its end: that ends what still runs."""
 
 
 class Executor(Protocol):
@@ -27,9 +29,7 @@ class Executor(Protocol):
     An error of a job is its result; what ends the run of all (Ctrl-C, a cluster that is lost) is raised.
     """
 
-    def run(
-        self, function: Callable[[Job], Result], jobs: Sequence[Job]
-    ) -> Iterator[tuple[int, Result | Exception]]: ...
+    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Results: ...
 
 
 class Serial:
@@ -39,7 +39,7 @@ class Serial:
     (0, 1)
     """
 
-    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Iterator[tuple[int, Result | Exception]]:
+    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Results:
         for place, job in enumerate(jobs):
             try:
                 found: Result | Exception = function(job)
@@ -57,7 +57,7 @@ class Threads:
     def __init__(self, number: int, interrupted: Callable[[], None] = lambda: None):
         self.number, self.interrupted = number, interrupted
 
-    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Iterator[tuple[int, Result | Exception]]:
+    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Results:
         with ThreadPoolExecutor(self.number) as pool:
             waiting: dict[Future[Result], int] = {pool.submit(function, job): place for place, job in enumerate(jobs)}
             try:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from multiprocessing import get_all_start_methods, get_context
 from multiprocessing.context import BaseContext
 
-from notebook_reports.executors.executor import TRIES, Job, Result, cores, surroundings
+from notebook_reports.executors.executor import TRIES, Job, Result, Results, cores, surroundings
 
 
 class Processes:
@@ -17,7 +17,7 @@ class Processes:
     def __init__(self, number: int | None = None, preloaded: Sequence[str] = ()):
         self.number, self.preloaded = number or cores(), tuple(preloaded)
 
-    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Iterator[tuple[int, Result | Exception]]:
+    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Results:
         waiting = dict.fromkeys(range(len(jobs)), 0)
         while waiting:
             alone = any(waiting.values())  # after a process was killed, one at a time: then it is known by whose job

@@ -84,3 +84,11 @@ def test_without_dask_it_is_said_what_to_install():
         [sys.executable, "-c", program + "list(Cluster('2').run(eval, ['1']))"], capture_output=True, text=True
     )
     assert "--cluster needs Dask: pip install 'loopbook[cluster]'" in done.stderr
+
+
+@pytest.mark.whole
+def test_workers_of_its_own_listen_on_this_machine_alone():
+    distributed = pytest.importorskip("distributed")
+    with Cluster("1")._client(distributed) as client:
+        assert client.scheduler.address.startswith("tcp://127.0.0.1:")
+        assert all(worker.startswith("tcp://127.0.0.1:") for worker in client.scheduler_info()["workers"])

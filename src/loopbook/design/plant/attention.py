@@ -24,9 +24,9 @@ LEAST_FIT = 80.0  # % of the response
 
 @dataclass(frozen=True)
 class Row:
-    """One loop. failed, refused: why there is no design, "" where there is one. fit [%], Ms, overshoot [%], settling
-    [s], at_limit (share of the samples), the process and its settings: None where unknown. lacks: does the program not keep
-    what the aim asks? mind: the cautions.
+    """One loop. failed, refused: why there is no design, "" where there is one. fit [%], Ms, overshoot [%],
+    settling [s], at_limit (share of the samples), the process and its settings: None where unknown. lacks: does the
+    program not keep what the aim asks? mind: the cautions.
     """
 
     name: str

@@ -3,6 +3,7 @@
 import os
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -68,11 +69,12 @@ def design_plant(
             todo.append(job)
         else:
             rows[job.label] = _row(noted)
-    for number, (place, found) in enumerate(executor.run(design_one, todo), len(rows) + 1):
-        job = todo[place]
-        rows[job.label] = _keep(found, job, folders[job.label], out, kept)
-        done.fresh += 1
-        tell(rows[job.label], number, len(wanted))
+    with closing(executor.run(design_one, todo)) as results:
+        for number, (place, found) in enumerate(results, len(rows) + 1):
+            job = todo[place]
+            rows[job.label] = _keep(found, job, folders[job.label], out, kept)
+            done.fresh += 1
+            tell(rows[job.label], number, len(wanted))
     done.rows = ranked(rows.values())
     links = {item.label: {f: p.name for f, p in item.outputs.items()} for item in wanted}
     files = {CSV: as_csv(done.rows), HTML: as_html(done.rows, links)}

@@ -33,7 +33,7 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def as_csv(rows: Sequence[Row]) -> bytes:
-    """One line for each loop, ranked; numbers whole, with a point. Before text that a spreadsheet would run stands a '."""
+    """One line for each loop, ranked; numbers whole, with a point. Text that a spreadsheet would run begins with '."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     heads = [f"{name} [{unit}]" if unit else name for name, unit, _ in NUMBERS]
