@@ -13,7 +13,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from notebook_reports.build.job import Done, Job, Wanted, plan
 from notebook_reports.build.work import Outcome, _finish, _work
@@ -224,13 +223,13 @@ def _report(
     content: dict,
     format: str,
     notebook: Notebook,
-    *about: Any,
+    title: str,
 ) -> bytes:
     """A report in any of `FORMATS`; json is the data that the notebook shows as such, programs are made from it."""
     if format in programs:
         return programs[format](_shown(content), stems[notebook.path.stem][format])
     if format != "json":
-        return report_of(content, format, notebook, *about, code)
+        return report_of(content, format, notebook, title, code)
     return (json.dumps(_shown(content), indent=2, ensure_ascii=False) + "\n").encode()
 
 

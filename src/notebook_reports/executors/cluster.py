@@ -52,7 +52,9 @@ class Cluster:
             for future in distributed.as_completed(futures, loop=client.loop):
                 if future.status in ("cancelled", "lost"):
                     raise EnvironmentProblem(f"--cluster {self.where}: its scheduler is gone; what is done is kept")
-                yield places[future.key], future.exception() or future.result()
+                found = future.exception() or future.result()
+                future.release()  # else a worker keeps it, and one that is killed costs all that it did before
+                yield places[future.key], found
 
     def _refuse_others(self, client: Any) -> None:
         """Raises EnvironmentProblem where a worker has not the packages that are here."""

@@ -114,8 +114,11 @@ def main() -> None:
         except Exception as error:
             told = (False, error)
         content = pickle.dumps(told)
-        replies.write(LENGTH.pack(len(content)) + content)
-        replies.flush()
+        try:
+            replies.write(LENGTH.pack(len(content)) + content)
+            replies.flush()
+        except BrokenPipeError:  # who asked was ended
+            os._exit(0)
 
 
 if __name__ == "__main__":

@@ -92,3 +92,14 @@ def test_workers_of_its_own_listen_on_this_machine_alone():
     with Cluster("1")._client(distributed) as client:
         assert client.scheduler.address.startswith("tcp://127.0.0.1:")
         assert all(worker.startswith("tcp://127.0.0.1:") for worker in client.scheduler_info()["workers"])
+
+
+@pytest.mark.whole
+def test_a_killed_worker_costs_what_it_was_doing_and_nothing_that_it_had_done(scheduler, tmp_path):
+    """Results that are held on a worker until the end would be lost with it."""
+    ran = str(tmp_path / "ran")
+    jobs = [f"open({ran!r}, 'a').write('{n} ') and {n}" for n in range(12)]
+    kill = f"open({ran!r}, 'a').write('k ') and open({ran!r}).read().count('k ') > 1 or o.kill(o.getppid(), 9)"
+    jobs[9] = f"[o := __import__('os'), {kill} or __import__('time').sleep(9), 9][-1]"
+    assert sorted(Cluster(scheduler).run(eval, jobs)) == [(n, n) for n in range(12)]
+    assert len((tmp_path / "ran").read_text().split()) <= 12 + 2  # the killing job again, and one that waited there

@@ -2,16 +2,18 @@
 
 import json
 import tempfile
+import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from derivations.errors import LoopbookError
 from loopbook.code.files import PROGRAMS
 from loopbook.design.notebook import design_notebook
 from loopbook.design.plant.attention import Row, row_of
 from loopbook.design.study import Study
-from loopbook.records.summary import describe
 
 DETAIL = "detail"
 
@@ -32,10 +34,9 @@ class DesignJob:
 
 @dataclass(frozen=True)
 class Designed:
-    """What came of it. read: what was taken for what. files: contents by format, none where the record is refused."""
+    """What came of it. files: contents by format, none where the record is refused."""
 
     row: Row
-    read: str
     files: dict[str, bytes] = field(default_factory=dict)
 
 
@@ -46,16 +47,14 @@ def design_one(job: DesignJob) -> Designed:
         data = folder / job.file
         data.write_bytes(job.content)
         values = dict(job.values)
-        given = [values.get(key, "") for key in ("time", "input", "output")]
-        read = "a model" if data.suffix.lower() == ".toml" else describe(data, *given, values.get("interval", 0.0))
         try:
-            study = Study(data, **values)
-            found = study.results()
+            with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+                study = Study(data, **values)
+                found = study.results()
         except LoopbookError as error:
-            return Designed(Row(job.label, refused=_without(folder, str(error))), _without(folder, read))
+            return Designed(Row(job.label, refused=_without(folder, str(error))))
         files = _files(job, folder, json.loads(json.dumps(found, sort_keys=True)))
-        row = row_of(job.label, found, study.recommendation.compromise, study.cautions)
-        return Designed(row, _without(folder, read), files)
+        return Designed(row_of(job.label, found, study.recommendation.compromise, study.cautions), files)
 
 
 def _without(folder: Path, text: str) -> str:

@@ -53,8 +53,8 @@ def quick(monkeypatch):
         if "fails" in text:
             raise TimeoutError("not done within 5 s")
         if "refused" in text:
-            return Designed(Row(job.label, refused=text), "")
-        return Designed(Row(job.label, Ms=float(text), fit=99.0), "", {"json": repr(job).encode()})
+            return Designed(Row(job.label, refused=text))
+        return Designed(Row(job.label, Ms=float(text), fit=99.0), {"json": repr(job).encode()})
 
     monkeypatch.setattr(plant_run, "design_one", design)
 
