@@ -4,6 +4,7 @@ Whoever reaches a scheduler's port runs code on its workers: docs/security.md.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from functools import cache
 from typing import Any
@@ -50,9 +51,12 @@ class Cluster:
             futures = client.map(on_worker, order, range(len(jobs)), pure=False, retries=TRIES - 1)
             places = {future.key: place for place, future in enumerate(futures)}
             for future in distributed.as_completed(futures, loop=client.loop):
-                if future.status in ("cancelled", "lost"):
+                try:
+                    found = future.exception() or future.result()  # one lost with its worker is done again meanwhile
+                except CancelledError:
+                    found = CancelledError()
+                if isinstance(found, CancelledError):
                     raise EnvironmentProblem(f"--cluster {self.where}: its scheduler is gone; what is done is kept")
-                found = future.exception() or future.result()
                 future.release()  # else a worker keeps it, and one that is killed costs all that it did before
                 yield places[future.key], found
 

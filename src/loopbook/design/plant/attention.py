@@ -23,7 +23,7 @@ LEAST_FIT = 80.0  # % of the response
 
 
 @dataclass(frozen=True)
-class Row:
+class LoopRow:
     """One loop. failed, refused: why there is no design, "" where there is one. fit [%], Ms, overshoot [%],
     settling [s], at_limit (share of the samples), the process and its settings: None where unknown. lacks: does the
     program not keep what the aim asks? mind: the cautions.
@@ -77,7 +77,7 @@ class Row:
         return " ".join(filter(None, [told.get(state, ""), *self.mind]))
 
 
-def ranked(rows: Iterable[Row]) -> list[Row]:
+def ranked(rows: Iterable[LoopRow]) -> list[LoopRow]:
     """The loops, what needs attention most first: by `ORDER`, then the larger Ms, the poorer fit, the name."""
     return sorted(rows, key=lambda r: (ORDER.index(r.state), -(r.Ms or 0.0), _known(r.fit), r.name))
 
@@ -86,11 +86,11 @@ def _known(value: float | None) -> float:
     return math.inf if value is None else value
 
 
-def row_of(name: str, found: dict[str, Any], lacks: bool, cautions: Sequence[str]) -> Row:
+def row_of(name: str, found: dict[str, Any], lacks: bool, cautions: Sequence[str]) -> LoopRow:
     """The row of a design. found: its JSON. Limits that the record gave are every loop's, and no reason to look."""
     process, settings, expected = found["process"], found["settings"], found["expected"]
     lags, fit = process["time_constants"], process["fit"]
-    return Row(
+    return LoopRow(
         name,
         rule=found["rule"],
         gain=process["gain"],

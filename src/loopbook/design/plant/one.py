@@ -12,7 +12,8 @@ import numpy as np
 from derivations.errors import LoopbookError
 from loopbook.code.files import PROGRAMS
 from loopbook.design.notebook import design_notebook
-from loopbook.design.plant.attention import Row, row_of
+from loopbook.design.plant.attention import LoopRow, row_of
+from loopbook.design.plant.printing import report_files
 from loopbook.design.study import Study
 
 DETAIL = "detail"
@@ -36,7 +37,7 @@ class DesignJob:
 class Designed:
     """What came of it. files: contents by format, none where the record is refused."""
 
-    row: Row
+    row: LoopRow
     files: dict[str, bytes] = field(default_factory=dict)
 
 
@@ -52,7 +53,7 @@ def design_one(job: DesignJob) -> Designed:
                 study = Study(data, **values)
                 found = study.results()
         except LoopbookError as error:
-            return Designed(Row(job.label, refused=_without(folder, str(error))))
+            return Designed(LoopRow(job.label, refused=_without(folder, str(error))))
         files = _files(job, folder, json.loads(json.dumps(found, sort_keys=True)))
         return Designed(row_of(job.label, found, study.recommendation.compromise, study.cautions), files)
 
@@ -63,8 +64,6 @@ def _without(folder: Path, text: str) -> str:
 
 
 def _files(job: DesignJob, folder: Path, found: dict[str, Any]) -> dict[str, bytes]:
-    from loopbook.design.plant.printing import printed
-
     files, pages = {}, []
     for format, stem in job.stems:
         if format == "json":
@@ -75,6 +74,6 @@ def _files(job: DesignJob, folder: Path, found: dict[str, Any]) -> dict[str, byt
             pages.append(format)
     if pages:
         left_out = frozenset({DETAIL} if job.page else ())
-        files |= printed(design_notebook(), folder, job.label, {**dict(job.values), "data": job.file}, pages, left_out,
+        files |= report_files(design_notebook(), folder, job.label, {**dict(job.values), "data": job.file}, pages, left_out,
                          job.code)  # fmt: skip
     return files

@@ -11,7 +11,7 @@ from notebook_reports.run.canonical import dump
 from notebook_reports.run.here import run_here
 
 
-def printed(
+def report_files(
     notebook: Path,
     folder: Path,
     label: str,

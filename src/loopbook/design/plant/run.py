@@ -8,9 +8,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from loopbook.design.plant.attention import FAILED, REFUSED, Row, ranked
+from loopbook.design.plant.attention import FAILED, REFUSED, LoopRow, ranked
 from loopbook.design.plant.one import Designed, DesignJob, design_one
-from loopbook.design.plant.summary import as_csv, as_html
+from loopbook.design.plant.summary import summary_csv, summary_page
 from loopbook.jobs import PACKAGES
 from notebook_reports.build.apply import Item
 from notebook_reports.executors.done import FOLDER, DoneJobs
@@ -24,13 +24,13 @@ OURS = "summary"
 
 
 @dataclass
-class Plant:
+class PlantDesigns:
     """What came of a run. rows: ranked. fresh: how many were designed now."""
 
-    rows: list[Row] = field(default_factory=list)
+    rows: list[LoopRow] = field(default_factory=list)
     fresh: int = 0
 
-    def of(self, *states: str) -> list[Row]:
+    def of(self, *states: str) -> list[LoopRow]:
         return [row for row in self.rows if row.state in states]
 
     @property
@@ -45,8 +45,8 @@ def design_plant(
     executor: Executor,
     page: bool = False,
     code: bool = False,
-    tell: Callable[[Row, int, int], None] = lambda row, done, of: None,
-) -> Plant:
+    tell: Callable[[LoopRow, int, int], None] = lambda row, done, of: None,
+) -> PlantDesigns:
     """Design for each item and write its files and the summary into `out`. tell: (the row, how many are done, of how
     many), as they end.
 
@@ -56,12 +56,12 @@ def design_plant(
     kept = DoneJobs(out, out / FOLDER, PACKAGES)
     _refuse_foreign(out, kept, wanted)
     atomic.writable(out)
-    rows, jobs, done = {}, [], Plant()
+    rows, jobs, done = {}, [], PlantDesigns()
     for item in wanted:
         try:
             jobs.append(_job(item, values, page, code))
         except OSError as error:
-            rows[item.label] = Row(item.label, failed=f"{item.data} cannot be read: {error.strerror}")
+            rows[item.label] = LoopRow(item.label, failed=f"{item.data} cannot be read: {error.strerror}")
     folders = {item.label: item.outputs for item in wanted}
     todo = []
     for job in jobs:
@@ -77,7 +77,7 @@ def design_plant(
             tell(rows[job.label], number, len(wanted))
     done.rows = ranked(rows.values())
     links = {item.label: {f: p.name for f, p in item.outputs.items()} for item in wanted}
-    files = {CSV: as_csv(done.rows), HTML: as_html(done.rows, links)}
+    files = {CSV: summary_csv(done.rows), HTML: summary_page(done.rows, links)}
     kept.note(OURS, OURS, {}, files)  # first: a summary without its record would be taken for a stranger's
     for name, content in files.items():
         atomic.write(out / name, content)
@@ -93,15 +93,15 @@ def _place(label: str) -> str:
     return f"loops/{label}"
 
 
-def _row(noted: dict[str, Any]) -> Row:
-    return Row(**{**noted, "mind": tuple(noted["mind"])})
+def _row(noted: dict[str, Any]) -> LoopRow:
+    return LoopRow(**{**noted, "mind": tuple(noted["mind"])})
 
 
-def _keep(found: Designed | Exception, job: DesignJob, outputs: dict[str, Path], out: Path, kept: DoneJobs) -> Row:
+def _keep(found: Designed | Exception, job: DesignJob, outputs: dict[str, Path], out: Path, kept: DoneJobs) -> LoopRow:
     """Write what came of a job. One that failed is not noted, and so done again by the next run."""
     if isinstance(found, Exception):
         _set_aside(outputs)
-        return Row(job.label, failed=f"{type(found).__name__}: {found}")
+        return LoopRow(job.label, failed=f"{type(found).__name__}: {found}")
     if not found.files:
         _set_aside(outputs)
     for format, content in found.files.items():
@@ -137,7 +137,7 @@ class Progress:
         self._began = self._told = now()
         self._bad = self._fresh = 0
 
-    def __call__(self, row: Row, done: int, of: int) -> None:
+    def __call__(self, row: LoopRow, done: int, of: int) -> None:
         """One more is done: a line that is written over on a terminal, elsewhere one a minute."""
         self._fresh += 1
         self._bad += row.state in (FAILED, REFUSED)

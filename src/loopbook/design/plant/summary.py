@@ -10,12 +10,12 @@ from hashlib import sha256
 from pathlib import Path
 from urllib.parse import quote
 
-from loopbook.design.plant.attention import FINE, ORDER, Row
+from loopbook.design.plant.attention import FINE, ORDER, LoopRow
 from notebook_reports.display import number
 from notebook_reports.project.printable import printable
 
 HERE = Path(__file__).parent
-NUMBERS: tuple[tuple[str, str, Callable[[Row], float | None]], ...] = (
+NUMBERS: tuple[tuple[str, str, Callable[[LoopRow], float | None]], ...] = (
     ("fit", "%", lambda r: r.fit),
     ("Ms", "", lambda r: r.Ms),
     ("overshoot", "%", lambda r: r.overshoot),
@@ -32,7 +32,7 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """What a spreadsheet takes for a formula at the start of a cell."""
 
 
-def as_csv(rows: Sequence[Row]) -> bytes:
+def summary_csv(rows: Sequence[LoopRow]) -> bytes:
     """One line for each loop, ranked; numbers whole, with a point. Text that a spreadsheet would run begins with '."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -49,7 +49,7 @@ def _text(text: str) -> str:
     return f"'{plain}" if plain.startswith(FORMULA) else plain
 
 
-def as_html(rows: Sequence[Row], links: Mapping[str, Mapping[str, str]]) -> bytes:
+def summary_page(rows: Sequence[LoopRow], links: Mapping[str, Mapping[str, str]]) -> bytes:
     """The page. links: the files of each loop by format, beside the page."""
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("summary.css", "summary.js"))
     counts = Counter(row.state for row in rows)
@@ -98,7 +98,7 @@ def _heads() -> list[tuple[str, bool]]:
     return [("rank", True), ("loop", False), ("state", False), *numbers, ("rule", False), ("what to look at", False)]
 
 
-def _row(rank: int, row: Row, links: Mapping[str, str]) -> str:
+def _row(rank: int, row: LoopRow, links: Mapping[str, str]) -> str:
     there = "" if row.failed or row.refused else " ".join(
         f'<a href="{html.escape(quote(file))}">{html.escape(format)}</a>' for format, file in links.items()
     )  # fmt: skip

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from loopbook.cli import main
 from loopbook.design.plant import run as plant_run
-from loopbook.design.plant.attention import Row
+from loopbook.design.plant.attention import LoopRow
 from loopbook.design.plant.one import Designed, DesignJob, design_one
 from loopbook.design.plant.run import Progress, design_plant
 from loopbook.process.transfer_function import Process
@@ -53,8 +53,8 @@ def quick(monkeypatch):
         if "fails" in text:
             raise TimeoutError("not done within 5 s")
         if "refused" in text:
-            return Designed(Row(job.label, refused=text))
-        return Designed(Row(job.label, Ms=float(text), fit=99.0), {"json": repr(job).encode()})
+            return Designed(LoopRow(job.label, refused=text))
+        return Designed(LoopRow(job.label, Ms=float(text), fit=99.0), {"json": repr(job).encode()})
 
     monkeypatch.setattr(plant_run, "design_one", design)
 
@@ -130,7 +130,7 @@ def test_progress_says_how_long_the_rest_takes():
     said, times = [], iter([0.0, 30.0, 61.0, 122.0])
     progress = Progress(said.append, terminal=False, now=lambda: next(times))
     for done in (1, 2, 3):
-        progress(Row("x", refused="no step" if done == 1 else ""), done, 3)
+        progress(LoopRow("x", refused="no step" if done == 1 else ""), done, 3)
     assert said == [
         "2 of 3 designed, 1 without a regulator, about 30 s left\n",
         "3 of 3 designed, 1 without a regulator\n",
