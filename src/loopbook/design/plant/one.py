@@ -74,6 +74,6 @@ def _files(job: DesignJob, folder: Path, found: dict[str, Any]) -> dict[str, byt
             pages.append(format)
     if pages:
         left_out = frozenset({DETAIL} if job.page else ())
-        files |= report_files(design_notebook(), folder, job.label, {**dict(job.values), "data": job.file}, pages, left_out,
-                         job.code)  # fmt: skip
+        given = {**dict(job.values), "data": job.file}
+        files |= report_files(design_notebook(), folder, job.label, given, pages, left_out, job.code)
     return files
