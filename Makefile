@@ -12,7 +12,7 @@ SOURCES := src tests tools bench notebooks
 # Bytecode is worth seconds at every kernel start; a machine that switches it off would make everything slow.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-identification prove-scaling prove-course interop prove-tuner browser lock
+.PHONY: all docs difference dist core test quick check help doctor clean notebooks lint format bench profile verify chaos mutants prove prove-design prove-plant prove-identification prove-scaling prove-course interop prove-tuner browser lock
 .DELETE_ON_ERROR:
 
 # An environment that was copied or moved, or made with another PYTHON than the one named now, is made again.
@@ -48,6 +48,9 @@ doctor: ## say what of the environment is as it should be; changes nothing
 
 notebooks: $(READY) ## open JupyterLab on the project's kernel
 	@MATPLOTLIBRC="$(CURDIR)/src/notebook_reports/run/matplotlibrc" $(BIN)/jupyter lab notebooks
+
+prove-plant: $(VENV)/ready-cluster ## 2,000 synthetic records on a cluster whose workers are killed: the bad ten stand first (RECORDS=...)
+	@$(BIN)/python tests/loopbook/design/acceptance/prove_plant.py $(or $(RECORDS),2000)
 
 prove-design: $(READY) ## design for 300 synthetic records and run every loop on its true process
 	@$(BIN)/python tests/loopbook/design/acceptance/prove_design.py 300

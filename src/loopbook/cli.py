@@ -12,9 +12,10 @@ from loopbook.code.cli import code as code_command
 from loopbook.course.cli import course as course_command
 from loopbook.design.notebook import design_notebook
 from loopbook.tuner_page.cli import tune_page
-from notebook_reports.cli import main
+from notebook_reports.cli import main, say
 from notebook_reports.project.project import Project, UsageError
 
+MOST_NAMED = 10  # records without a regulator that are named in the terminal
 FILES = """\b
 Records: CSV, .xlsx or Parquet, one sample a line, with a time, an input and an output, in any order and language:
   time [s], valve [%], temperature [°C]
@@ -52,7 +53,9 @@ steps of the final simulation).
 @click.option("--page", is_flag=True, help="The first page only.")
 @click.option("--code", is_flag=True, help="Show the code, the program's listing and the data as well.")
 @click.option("--template", is_flag=True, help="Write an annotated model file, to standard output or to -o, and stop.")
-@click.option("-j", "--jobs", type=click.IntRange(min=1), help="Kernels at a time; default: one per core.")
+@click.option("-j", "--jobs", type=click.IntRange(min=1), help="Designs at a time; default: one per core.")
+@click.option("--cluster", metavar="N|tcp://HOST:PORT",
+              help="Many records on Dask's workers: N started here, or a scheduler's, tcp:// or tls://.")  # fmt: skip
 @click.pass_obj
 def design(
     project: Project,
@@ -64,13 +67,15 @@ def design(
     code: bool,
     template: bool,
     jobs: int | None,
+    cluster: str | None,
     parameters: tuple[tuple[str, str], ...],
     **options: Any,
 ) -> None:
     """A regulator for your own process, from recorded step tests or models.
 
-    Many records at once: loopbook design *.csv -o reports/. The designs run in parallel; a record that no model can be
-    made of does not stop the others, is named at the end, and makes the exit code 1.
+    Many records at once: loopbook design records/*.csv -o out/. The designs run in parallel, on other machines with
+    --cluster; out/summary.html and .csv name first what needs attention. A record that no model can be made of does not
+    stop the others, is named, and makes the exit code 1. The same command goes on where it was broken off.
     """
     from loopbook.design.model_file import TEMPLATE, as_toml, read_fixed
 
@@ -80,6 +85,10 @@ def design(
     named = _named(options) + ([("known", model)] if model else [])
     if not data and not model:
         raise UsageError("name a record or a model: loopbook design record.csv (loopbook design --help says more)")
+    if cluster is not None and (len(data) < 2 or report is None):
+        raise UsageError("--cluster is for many records: loopbook design records/*.csv -o out/ --cluster 4")
+    if len(data) > 1 and report is not None:
+        sys.exit(_plant(data, report, formats, named + list(parameters), page, code, jobs, cluster))
     if data:
         sys.exit(_apply(project, data, report, formats, named + list(parameters), page, code, jobs))
     import tempfile
@@ -169,6 +178,50 @@ def _apply(
         code=code,
         leave_out=leave_out,
     ).code
+
+
+def _plant(
+    data: Sequence[Path],
+    out: Path,
+    formats: str,
+    parameters: list[tuple[str, str]],
+    page: bool,
+    code: bool,
+    jobs: int | None,
+    cluster: str | None,
+) -> int:
+    from loopbook.code.files import PROGRAMS, with_all_files
+    from loopbook.design.plant.attention import FAILED, REFUSED
+    from loopbook.design.plant.run import CSV, HTML, Progress, design_plant
+    from loopbook.jobs import NUMBERS, PACKAGES, PRINTING
+    from notebook_reports.build.apply import items
+    from notebook_reports.executors.asked import executor_for
+    from notebook_reports.executors.executor import interruptible
+    from notebook_reports.project.parameters import assign
+    from notebook_reports.project.source import read_source
+
+    chosen = [f.strip() for f in formats.split(",") if f.strip()]
+    wanted = items(data, out, "design", with_all_files(chosen), more=tuple(PROGRAMS))
+    given = assign(read_source(design_notebook()), parameters)
+    values = [(name, value) for name, value in given.items() if name != "data"]
+    modules = (*NUMBERS, "loopbook.design.plant.warm", *PRINTING)
+    executor = executor_for(jobs, cluster, PACKAGES, modules)
+    progress = Progress(lambda text: click.echo(text, nl=False, err=True), sys.stderr.isatty())
+    try:
+        with interruptible():
+            done = design_plant(wanted, out, values, executor, page, code, progress)
+    except KeyboardInterrupt:
+        click.echo(f"\nbroken off; what is done is kept in {out}, and the same command goes on", err=True)
+        return 130
+    bad = done.of(FAILED, REFUSED)
+    for row in bad[:MOST_NAMED]:
+        say(f"{row.name}: {row.why}", err=True)
+    if len(bad) > MOST_NAMED:
+        say(f"and {len(bad) - MOST_NAMED} more without a regulator: see the summary", err=True)
+    kept = len(done.rows) - done.fresh
+    say(f"{len(done.rows)} records, {len(bad)} without a regulator" + (f", {kept} from before" if kept else ""))
+    say(f"{out / HTML}\n{out / CSV}")
+    return done.code
 
 
 def _say(wanted: Sequence[Any], given: dict[str, str]) -> None:

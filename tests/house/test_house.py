@@ -27,6 +27,7 @@ LONG: dict[str, str] = {
 }
 RUNS_CODE = {
     "loopbook/course/running.py": "a teacher's own sheet, cell by cell, as a kernel runs it",
+    "notebook_reports/run/here.py": "the notebook of an installed package, as a kernel runs it",
     "loopbook/code/running.py": "a controller as Python, printed from the derived program",
     "loopbook/controllers/generated.py": "a controller as Python, printed from the derived program",
     "loopbook/printed/store.py": "a function of numbers, printed from a derivation",

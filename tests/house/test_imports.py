@@ -10,7 +10,16 @@ import pytest
 
 SOURCE = Path(__file__).parents[2] / "src"
 PACKAGES = ("derivations", "loopbook", "notebook_reports")
-APART = ("__main__", "cli", "design", "code", "tuner_page", "course", "documents")  # of loopbook: what uses the engine
+APART = (
+    "__main__",
+    "cli",
+    "design",
+    "code",
+    "tuner_page",
+    "course",
+    "documents",
+    "jobs",
+)  # of loopbook: what uses the engine
 NOTEBOOKS = {"nbformat", "nbconvert", "nbclient", "papermill", "IPython", "ipykernel", "jupyter_client", "jupyter_core"}
 HEAVY = NOTEBOOKS | {
     "PIL", "bs4", "control", "dask", "defusedxml", "distributed", "fontTools", "jinja2", "matplotlib", "mistune",

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from derivations.errors import LoopbookError
+from loopbook.jobs import NUMBERS, PACKAGES, PRINTING
 from notebook_reports.cli import say
 from notebook_reports.project.project import UsageError
 
 if TYPE_CHECKING:
-    from loopbook.course.workers import Executor
+    from notebook_reports.executors.executor import Executor
 
 FORMATS = ("moodle", "gift", "csv", "nbgrader", "otter")
 
@@ -207,13 +208,11 @@ def sheet_path(name: str) -> Path:
 
 
 def _executor(jobs: int | None, cluster: str | None) -> "Executor":
-    from loopbook.course.workers import Processes
+    from notebook_reports.executors.asked import executor_for
 
-    if cluster is None:
-        return Processes(jobs)
-    from loopbook.course.cluster import Cluster
-
-    return Cluster(cluster)
+    return executor_for(
+        jobs, cluster, PACKAGES, (*NUMBERS, "loopbook.course.release.one", "loopbook.course.grade.one", *PRINTING)
+    )
 
 
 def _repository(output: Path) -> Path | None:

@@ -13,11 +13,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from notebook_reports.build.job import Done, Job, Wanted, plan
-from notebook_reports.build.work import Outcome, _cores, _finish, _work
+from notebook_reports.build.work import Outcome, _finish, _work
 from notebook_reports.build.writing import reporter
+from notebook_reports.executors.executor import cores
 from notebook_reports.project import atomic, runtime
 from notebook_reports.project.console import Console
 from notebook_reports.project.parameters import assign
@@ -176,7 +176,7 @@ def apply(
             folder.mkdir()
             label = item.label or item.data.stem
             copied = folder / f"{label}.ipynb"
-            copied.write_text(_without(notebook.read_text(encoding="utf-8"), leave_out), encoding="utf-8")
+            copied.write_text(without(notebook.read_text(encoding="utf-8"), leave_out), encoding="utf-8")
             shutil.copyfile(item.data, folder / item.data.name)
             source = read_source(copied)
             values = assign(source, [*parameters, (parameter, item.data.name)])
@@ -187,7 +187,7 @@ def apply(
         for path in sorted({p.parent for job in todo for p in job.outputs.values()}):
             path.mkdir(parents=True, exist_ok=True)
             atomic.writable(path)
-        done = _work(project, todo, settings, jobs or _cores(), console, ready)
+        done = _work(project, todo, settings, jobs or cores(), console, ready)
         failed = {one.notebook.path for one in done if one.failures}
         again = [str(item.data) for job, item in zip(todo, wanted, strict=True) if job.notebook.path in failed]
         command = shlex.join([*repeat, *again, *given])
@@ -197,7 +197,7 @@ def apply(
         return _finish(project, done, failures, todo, console)
 
 
-def _without(notebook: str, tags: frozenset[str]) -> str:
+def without(notebook: str, tags: frozenset[str]) -> str:
     """A notebook's text without the cells that have one of the tags."""
     if not tags:
         return notebook
@@ -223,14 +223,19 @@ def _report(
     content: dict,
     format: str,
     notebook: Notebook,
-    *about: Any,
+    title: str,
 ) -> bytes:
     """A report in any of `FORMATS`; json is the data that the notebook shows as such, programs are made from it."""
     if format in programs:
         return programs[format](_shown(content), stems[notebook.path.stem][format])
     if format != "json":
-        return reporter()(content if code else _codeless(content), format, notebook, *about)
+        return report_of(content, format, notebook, title, code)
     return (json.dumps(_shown(content), indent=2, ensure_ascii=False) + "\n").encode()
+
+
+def report_of(content: dict, format: str, notebook: Notebook, title: str, code: bool) -> bytes:
+    """A report to be read, of an executed notebook from elsewhere. code: show it."""
+    return reporter()(content if code else _codeless(content), format, notebook, title)
 
 
 def _shown(content: dict) -> dict:

@@ -12,7 +12,8 @@ from notebook_reports.build import provenance
 from notebook_reports.build.job import Job, Wanted, plan
 from notebook_reports.build.judge import judge, remembered
 from notebook_reports.build.where import output_paths
-from notebook_reports.build.work import INTERRUPTED, Outcome, _cores, _finish, _work
+from notebook_reports.build.work import INTERRUPTED, Outcome, _finish, _work
+from notebook_reports.executors.executor import cores
 from notebook_reports.memory import stamps
 from notebook_reports.memory.manifest import write_manifest
 from notebook_reports.pages import publish as pages
@@ -59,7 +60,7 @@ def build(
         todo, broken = _plan(project, notebooks, parameters, wanted)
         work = [j for j in todo if not j.idle]
         try:
-            done = _work(project, work, wanted, jobs or _cores(), console)
+            done = _work(project, work, wanted, jobs or cores(), console)
         except KeyboardInterrupt:
             console.line(
                 "interrupted: what was finished stays, nothing is half written; the next build goes on from there"

@@ -1,17 +1,15 @@
 """The work of a build: how many kernels, what each job gave, how it is ended."""
 
 import math
-import os
-import signal
 import sys
-import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 from notebook_reports.build.job import Done, Job, Wanted, do, repeat
+from notebook_reports.executors.executor import Threads, interruptible
 from notebook_reports.memory import kept_fonts
 from notebook_reports.project import atomic, limits, runtime
 from notebook_reports.project.console import Console
@@ -36,10 +34,6 @@ class Outcome:
     failures: list[Failure] = field(default_factory=list)
 
 
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def _work(
     project: Project, work: list[Job], wanted: Wanted, jobs: int, console: Console, ready: str = ""
 ) -> list[Done]:
@@ -54,24 +48,14 @@ def _work(
     work.sort(key=lambda j: -(j.stamp.seconds if j.stamp else math.inf))
     done: list[Done] = []
     with (
-        _interruptible(),
+        interruptible(),
         _kernels(project, sum(bool(j.run_because) for j in work), console, ready),
         console.progress(len(work)),
-        ThreadPoolExecutor(min(jobs, len(work))) as pool,
     ):
-        waiting: dict[Future, Job] = {pool.submit(do, project, job, wanted): job for job in work}
-        try:
-            while waiting:
-                finished, _ = wait(waiting, return_when=FIRST_COMPLETED)
-                for future in finished:
-                    job = waiting.pop(future)
-                    done.append(_result(future, job))
-                    console.done(done[-1], job.reasons)
-        except KeyboardInterrupt:
-            for future in waiting:
-                future.cancel()
-            _kill()
-            raise
+        executor = Threads(min(jobs, len(work)), interrupted=_kill)
+        for place, found in executor.run(partial(do, project, wanted=wanted), work):
+            done.append(_result(found, work[place]))
+            console.done(done[-1], work[place].reasons)
     return done
 
 
@@ -99,37 +83,17 @@ def _kernels(project: Project, number: int, console: Console, ready: str = "") -
         runtime.tidy()
 
 
-def _result(future: Future, job: Job) -> Done:
-    try:
-        return future.result()
-    except KeyboardInterrupt:
-        raise
-    except Exception as error:
-        what = f"{type(error).__name__}: {error} (a fault of the pipeline, please report it)"
-        return Done(job.notebook, 0, [Failure(job.notebook.id, what, repeat=repeat(job))])
+def _result(found: Done | Exception, job: Job) -> Done:
+    if isinstance(found, Done):
+        return found
+    what = f"{type(found).__name__}: {found} (a fault of the pipeline, please report it)"
+    return Done(job.notebook, 0, [Failure(job.notebook.id, what, repeat=repeat(job))])
 
 
 def _kill() -> None:
     kernels = sys.modules.get("notebook_reports.run.kernels")
     if kernels:
         kernels.kill_all()
-
-
-@contextmanager
-def _interruptible() -> Iterator[None]:
-    """SIGTERM ends a build as Ctrl-C does."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def stop(*_: Any) -> None:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def _finish(

@@ -108,10 +108,10 @@ def run_notebook(
     one cell. Raises `kernels.Stopped` where the build was interrupted.
     """
     started = time.monotonic()
-    notebook = _loaded(source, parameters)
+    notebook = loaded(source, parameters)
     error, client = _execute(notebook, source.path.parent, project, timeout)
     if isinstance(error, DeadKernelError) and kernels.lost_its_parent() and not kernels.stopping():
-        notebook = _loaded(source, parameters)
+        notebook = loaded(source, parameters)
         error, client = _execute(notebook, source.path.parent, project, timeout)
     if kernels.stopping():
         raise kernels.Stopped
@@ -125,7 +125,7 @@ def run_notebook(
     return Run(content, time.monotonic() - started, failure, warnings, depends)
 
 
-def _loaded(source: Source, parameters: Mapping[str, Any] | None) -> nbformat.NotebookNode:
+def loaded(source: Source, parameters: Mapping[str, Any] | None) -> nbformat.NotebookNode:
     """The notebook for papermill, as it was read, whatever the file says now, with its parameters."""
     notebook = load_notebook_node(nbformat.from_dict(copy.deepcopy(source.content)))
     if not parameters:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
-from loopbook.course.done import FOLDER, DoneJobs
 from loopbook.course.errors import CourseError
 from loopbook.course.grade.one import Graded, GradeJob, grade_one
 from loopbook.course.grade.submissions import Collected, Submission, collect
@@ -15,7 +14,9 @@ from loopbook.course.grade.verdicts import OWN, RIGHT, Judged
 from loopbook.course.release.manifest import Manifest
 from loopbook.course.sandbox.jail import JailFailed
 from loopbook.course.sandbox.limits import NotebookLimits
-from loopbook.course.workers import Executor
+from loopbook.jobs import PACKAGES
+from notebook_reports.executors.done import FOLDER, DoneJobs
+from notebook_reports.executors.executor import Executor
 from notebook_reports.project import atomic
 
 FEEDBACK = "feedback"
@@ -55,7 +56,7 @@ def grade(
     hidden = tuple(dict.fromkeys(str(p.resolve()) for p in (folder, release, out, *hide)))
     jobs = [_job(one, sheets, manifest, hidden, formats, keys, limits or NotebookLimits()) for one in collected.found]
     done = Grades(unread=list(collected.unread))
-    kept = DoneJobs(out, out / FOLDER)
+    kept = DoneJobs(out, out / FOLDER, PACKAGES)
     todo = [job for job in jobs if not _graded_before(done, kept, job)]
     for number, (place, found) in enumerate(executor.run(grade_one, todo), len(jobs) - len(todo) + 1):
         _note(done, out, kept, todo[place], found)

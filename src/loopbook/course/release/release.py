@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from loopbook.course.done import FOLDER, DoneJobs
 from loopbook.course.errors import CourseError, SheetError
 from loopbook.course.notebooks import source_of
 from loopbook.course.release.draw import Draw
@@ -18,7 +17,9 @@ from loopbook.course.release.student import screen_sheet
 from loopbook.course.release.variants import Variants
 from loopbook.course.release.zips import zipped
 from loopbook.course.running import SheetRunner
-from loopbook.course.workers import Executor
+from loopbook.jobs import PACKAGES
+from notebook_reports.executors.done import FOLDER, DoneJobs
+from notebook_reports.executors.executor import Executor
 from notebook_reports.project import atomic
 
 STUDENTS, TEACHER, SHEETS, KEYS = "students", "teacher", "sheets", "keys"
@@ -126,7 +127,7 @@ def release(
         for id, content in sheets.items()
         for student in roster
     ]
-    kept = DoneJobs(out, teacher / FOLDER)
+    kept = DoneJobs(out, teacher / FOLDER, PACKAGES)
     found = {_place(job): kept.find(_place(job), job) for job in jobs}
     done.files += sum(noted["files"] for noted in found.values() if noted is not None)
     todo = [job for job in jobs if found[_place(job)] is None]

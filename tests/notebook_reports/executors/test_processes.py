@@ -4,7 +4,8 @@ from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
-from loopbook.course.workers import TRIES, Processes
+from notebook_reports.executors.executor import TRIES
+from notebook_reports.executors.processes import Processes
 
 pytestmark = pytest.mark.builds
 

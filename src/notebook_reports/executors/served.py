@@ -1,8 +1,8 @@
 """A process that does jobs for another: on a machine of a cluster, in the surroundings of every kernel, within a time.
 
-    python -P -m loopbook.course.served
+    python -P -m notebook_reports.executors.served [MODULE...]
 
-reads pickled (function, job) and writes pickled results; who starts it is who it works for.
+imports the modules, reads pickled (function, job) and writes pickled results; who starts it is who it works for.
 """
 
 import atexit
@@ -14,13 +14,13 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
-from derivations.errors import LoopbookError
-from loopbook.course.workers import PRELOADED, surroundings
+from notebook_reports.errors import PressError
+from notebook_reports.executors.executor import surroundings
 
 LENGTH = struct.Struct(">Q")
 READY = b"ready"
@@ -28,14 +28,15 @@ STARTING = 120.0
 """Seconds that its imports may take; they are not the job's."""
 
 
-class Ended(LoopbookError):
+class Ended(PressError):
     """The process ended before its job was done."""
 
 
 class Served:
-    """One such process, started when it is first needed and again after it was ended."""
+    """One such process, started when it is first needed and again after it was ended. preloaded: what it imports."""
 
-    def __init__(self) -> None:
+    def __init__(self, preloaded: Sequence[str] = ()) -> None:
+        self._preloaded = preloaded
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
         atexit.register(self.end)
@@ -56,7 +57,7 @@ class Served:
     def _started(self) -> "subprocess.Popen[bytes]":
         if self._process is None or self._process.poll() is not None:
             with surroundings():
-                order = [sys.executable, "-P", "-m", "loopbook.course.served"]
+                order = [sys.executable, "-P", "-m", "notebook_reports.executors.served", *self._preloaded]
                 self._process = subprocess.Popen(order, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
             assert self._process.stdout is not None
             _read(self._process.stdout.fileno(), len(READY), time.monotonic() + STARTING)
@@ -101,7 +102,7 @@ def main() -> None:
     nothing = os.open(os.devnull, os.O_RDWR)
     os.dup2(nothing, 0)
     os.dup2(nothing, 1)
-    for name in PRELOADED:
+    for name in sys.argv[1:]:
         import_module(name)
     replies.write(READY)
     replies.flush()
@@ -113,8 +114,11 @@ def main() -> None:
         except Exception as error:
             told = (False, error)
         content = pickle.dumps(told)
-        replies.write(LENGTH.pack(len(content)) + content)
-        replies.flush()
+        try:
+            replies.write(LENGTH.pack(len(content)) + content)
+            replies.flush()
+        except BrokenPipeError:  # who asked was ended
+            os._exit(0)
 
 
 if __name__ == "__main__":

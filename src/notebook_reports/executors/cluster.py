@@ -4,13 +4,14 @@ Whoever reaches a scheduler's port runs code on its workers: docs/security.md.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
-from loopbook.course.done import fingerprint
-from loopbook.course.served import Ended, Served
-from loopbook.course.workers import TRIES, Job, Result, surroundings
+from notebook_reports.executors.executor import TRIES, Job, Result, Results, surroundings
+from notebook_reports.executors.served import Ended, Served
+from notebook_reports.executors.sources import fingerprint
 from notebook_reports.project.project import EnvironmentProblem, UsageError
 
 SECONDS = 600.0
@@ -19,17 +20,23 @@ SECONDS = 600.0
 
 class Cluster:
     """Jobs on Dask's workers. where: a number of workers to be started on this machine, or the address of a scheduler,
-    ``tcp://host:8786``. seconds: for one job. A worker that is killed and a job that takes too long cost another try.
+    ``tcp://host:8786``. packages: whose sources have to be the same on every worker, the one that is installed last.
+    preloaded: modules that its processes import first. seconds: for one job. A worker that is killed and a job that
+    takes too long cost another try.
     """
 
-    def __init__(self, where: str, seconds: float = SECONDS):
-        self.where, self.seconds = where, seconds
+    def __init__(
+        self, where: str, packages: Sequence[str] = ("notebook_reports",), preloaded: Sequence[str] = (),
+        seconds: float = SECONDS,
+    ):  # fmt: skip
+        self.where, self.packages, self.preloaded = where, tuple(packages), tuple(preloaded)
+        self.seconds = seconds
         if not where.isdecimal() and not where.startswith(("tcp://", "tls://")):
             raise UsageError(f"--cluster {where}: give a number of workers or a scheduler, tcp://host:8786")
         if where.isdecimal() and int(where) < 1:
             raise UsageError("--cluster 0: at least one worker")
 
-    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Iterator[tuple[int, Result | Exception]]:
+    def run(self, function: Callable[[Job], Result], jobs: Sequence[Job]) -> Results:
         """(place in the list, what it gave or the exception that it raised), as they end.
 
         Raises EnvironmentProblem where there is no cluster, where its workers have not the same loopbook, and where it
@@ -39,14 +46,42 @@ class Cluster:
             return
         distributed = _distributed()
         with self._client(distributed) as client:
-            _alike(client, self.where)
-            order = [(function, job, self.seconds) for job in jobs]
+            self._refuse_others(client)
+            order = [(function, job, self.seconds, self.preloaded) for job in jobs]
             futures = client.map(on_worker, order, range(len(jobs)), pure=False, retries=TRIES - 1)
             places = {future.key: place for place, future in enumerate(futures)}
             for future in distributed.as_completed(futures, loop=client.loop):
-                if future.status in ("cancelled", "lost"):
+                try:
+                    found = future.exception() or future.result()  # one lost with its worker is done again meanwhile
+                except CancelledError:
+                    found = CancelledError()
+                if isinstance(found, CancelledError):
                     raise EnvironmentProblem(f"--cluster {self.where}: its scheduler is gone; what is done is kept")
-                yield places[future.key], future.exception() or future.result()
+                future.release()  # else a worker keeps it, and one that is killed costs all that it did before
+                yield places[future.key], found
+
+    def _refuse_others(self, client: Any) -> None:
+        """Raises EnvironmentProblem where a worker has not the packages that are here."""
+        what, here = self.packages[-1], fingerprint(self.packages)
+        try:
+            client.wait_for_workers(1, timeout=60)
+        except TimeoutError:
+            raise EnvironmentProblem(f"--cluster {self.where}: its scheduler has no worker: start one") from None
+        try:
+            found_of = client.run(fingerprint, self.packages)
+        except Exception as error:
+            told = f"{type(error).__name__}: {error}"
+            raise EnvironmentProblem(
+                f"--cluster {self.where}: {what} is not on every worker ({told}); install the same there, "
+                "with the extra cluster"
+            ) from None
+        for worker, found in found_of.items():
+            for name, value in here.items():
+                if found.get(name) != value:
+                    told = f"has {name} {found.get(name)}, this machine {value}"
+                    raise EnvironmentProblem(
+                        f"--cluster {self.where}: {worker} {told}; results would differ: install the same"
+                    )
 
     @contextmanager
     def _client(self, distributed: Any) -> Iterator[Any]:
@@ -79,14 +114,14 @@ class Cluster:
                 yield client
 
 
-def on_worker(order: tuple[Callable[[Any], Any], Any, float], place: int) -> Any:
+def on_worker(order: tuple[Callable[[Any], Any], Any, float, tuple[str, ...]], place: int) -> Any:
     """One job on a worker, in a process beside it. Raises what the job raises; other tries are the scheduler's.
 
     An error of the job itself is its result and not tried again.
     """
-    function, job, seconds = order
+    function, job, seconds, preloaded = order
     try:
-        return _served().do(function, job, seconds)
+        return _served(preloaded).do(function, job, seconds)
     except (TimeoutError, Ended):
         raise
     except Exception as error:
@@ -94,8 +129,8 @@ def on_worker(order: tuple[Callable[[Any], Any], Any, float], place: int) -> Any
 
 
 @cache
-def _served() -> Served:
-    return Served()
+def _served(preloaded: tuple[str, ...]) -> Served:
+    return Served(preloaded)
 
 
 def _distributed() -> Any:
@@ -104,18 +139,3 @@ def _distributed() -> Any:
     except ImportError:
         raise EnvironmentProblem("--cluster needs Dask: pip install 'loopbook[cluster]'") from None
     return distributed
-
-
-def _alike(client: Any, where: str) -> None:
-    """Raises EnvironmentProblem where a worker has not the loopbook that is here."""
-    client.wait_for_workers(1, timeout=60)
-    try:
-        found_of = client.run(fingerprint)
-    except Exception as error:
-        told = f"{type(error).__name__}: {error}"
-        raise EnvironmentProblem(f"--cluster {where}: install loopbook[cluster] on every worker ({told})") from None
-    for worker, found in found_of.items():
-        for name, value in fingerprint().items():
-            if found.get(name) != value:
-                told = f"has {name} {found.get(name)}, this machine {value}"
-                raise EnvironmentProblem(f"--cluster {where}: {worker} {told}; results would differ: install the same")

@@ -5,11 +5,10 @@ import sys
 
 import pytest
 
-from loopbook.course.cluster import Cluster
-from loopbook.course.done import fingerprint
-from loopbook.course.release.one import ReleaseJob, release_one
-from loopbook.course.served import Ended, Served
-from loopbook.course.workers import Processes, surroundings
+from notebook_reports.executors.cluster import Cluster
+from notebook_reports.executors.executor import surroundings
+from notebook_reports.executors.served import Ended, Served
+from notebook_reports.executors.sources import fingerprint
 from notebook_reports.project.project import EnvironmentProblem, UsageError
 
 pytestmark = [pytest.mark.builds, pytest.mark.long]
@@ -47,8 +46,8 @@ def test_what_is_no_cluster_is_told(where):
 
 
 def test_results_are_of_the_same_sources():
-    found = fingerprint()
-    assert len(found["loopbook's sources"]) == 12 and found["Python"] == sys.version.split()[0]
+    found = fingerprint(("notebook_reports",))
+    assert len(found["sources of notebook_reports"]) == 12 and found["Python"] == sys.version.split()[0]
 
 
 @pytest.fixture(scope="module")
@@ -64,38 +63,11 @@ def scheduler(tmp_path_factory):
 
 
 @pytest.mark.whole
-def test_the_bytes_are_those_of_the_serial_run_also_with_a_killed_worker_and_a_time_out(
-    scheduler, sheet_file, tmp_path
-):
-    content = sheet_file().read_bytes()
-    numbers = [{"K": k, "T": t} for k in (1.7, 2.3) for t in (11.0, 17.0)]
-    jobs = [
-        ReleaseJob("lag", content, f"s{n}", own, b"a secret of sixteen", pdf=n == 0) for n, own in enumerate(numbers)
-    ]
-    serial = dict(Processes(1).run(release_one, jobs))
-    assert all(not isinstance(one, Exception) for one in serial.values())
-    for where in ("2", scheduler):
-        assert dict(Cluster(where).run(release_one, jobs)) == serial
-    faults = {
-        "killed": "o.kill(o.getppid(), 9) or __import__('time').sleep(9)",
-        "ended": "o._exit(1)",
-    }
-    words = []
-    for job, (name, fault) in zip(jobs, [*faults.items(), *[("", "")] * 9], strict=False):
-        mark = str(tmp_path / name)
-        once = f"o.path.exists({mark!r}) or open({mark!r}, 'w').close() or {fault}" if fault else "None"
-        module = "__import__('loopbook.course.release.one', fromlist=['a'])"
-        words.append(f"[o := __import__('os'), m := {module}, {once}, m.release_one(m.{job!r})][-1]")
-    assert dict(Cluster(scheduler).run(eval, words)) == serial
-    assert {p.name for p in tmp_path.iterdir()} >= set(faults)
-
-
-@pytest.mark.whole
 def test_a_time_out_costs_its_job_another_try_and_then_is_told(scheduler, tmp_path):
     once = f"__import__('time').sleep(0 if __import__('os').path.exists({str(tmp_path / 'x')!r}) else "
     once += f"(open({str(tmp_path / 'x')!r}, 'w').close() or 60)) or 7"
-    assert sorted(Cluster(scheduler, 5).run(eval, ["1 + 1", once])) == [(0, 2), (1, 7)]
-    found = dict(Cluster(scheduler, 0.5).run(eval, ["1 / 0", "__import__('time').sleep(60)", "3"]))
+    assert sorted(Cluster(scheduler, seconds=5).run(eval, ["1 + 1", once])) == [(0, 2), (1, 7)]
+    found = dict(Cluster(scheduler, seconds=0.5).run(eval, ["1 / 0", "__import__('time').sleep(60)", "3"]))
     assert isinstance(found[0], ZeroDivisionError) and isinstance(found[1], TimeoutError) and found[2] == 3
 
 
@@ -107,8 +79,27 @@ def test_no_scheduler_is_told():
 
 
 def test_without_dask_it_is_said_what_to_install():
-    program = "import sys; sys.modules['distributed'] = None\nfrom loopbook.course.cluster import Cluster\n"
+    program = "import sys; sys.modules['distributed'] = None\nfrom notebook_reports.executors.cluster import Cluster\n"
     done = subprocess.run(
         [sys.executable, "-c", program + "list(Cluster('2').run(eval, ['1']))"], capture_output=True, text=True
     )
     assert "--cluster needs Dask: pip install 'loopbook[cluster]'" in done.stderr
+
+
+@pytest.mark.whole
+def test_workers_of_its_own_listen_on_this_machine_alone():
+    distributed = pytest.importorskip("distributed")
+    with Cluster("1")._client(distributed) as client:
+        assert client.scheduler.address.startswith("tcp://127.0.0.1:")
+        assert all(worker.startswith("tcp://127.0.0.1:") for worker in client.scheduler_info()["workers"])
+
+
+@pytest.mark.whole
+def test_a_killed_worker_costs_what_it_was_doing_and_nothing_that_it_had_done(scheduler, tmp_path):
+    """Results that are held on a worker until the end would be lost with it."""
+    ran = str(tmp_path / "ran")
+    jobs = [f"open({ran!r}, 'a').write('{n} ') and {n}" for n in range(12)]
+    kill = f"open({ran!r}, 'a').write('k ') and open({ran!r}).read().count('k ') > 1 or o.kill(o.getppid(), 9)"
+    jobs[9] = f"[o := __import__('os'), {kill} or __import__('time').sleep(9), 9][-1]"
+    assert sorted(Cluster(scheduler).run(eval, jobs)) == [(n, n) for n in range(12)]
+    assert len((tmp_path / "ran").read_text().split()) <= 12 + 2  # the killing job again, and one that waited there

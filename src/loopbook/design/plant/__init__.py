@@ -1,0 +1,1 @@
+"""All loops of a plant: one design for each record, and a summary of what needs attention."""
