@@ -5,7 +5,7 @@
 Four kinds of mutants, each alone in a copy of the project that has no committed ledger:
 
 value       the last digit of one printed number; caught where a check of a notebook fails that did not
-claim       one number, direction word or comparison of a statement; caught where its verdict or evidence is another
+claim       one number, direction word, comparison or operator of a statement; caught where its verdict is another
 derivation  one number, sign or operator; caught where a test fails, or a check of a notebook has another verdict
 input       one literal of a notebook's code; caught where a computed number, a verdict or an evidence moves
 
@@ -40,7 +40,9 @@ PARTS = ("src", "notebooks", "tests", "tools", "docs", "pyproject.toml", "README
 LEDGER = {"ledger.csv", "claims.csv", "misprints.csv"}
 WANTED = 0.98
 SERVERS = 4  # notebooks at a time that a copy keeps ready
-BY = ("check", "evidence", "test", "error")
+BY = ("check", "test", "error")
+INPUT = "nothing determines it"
+PATIENCE = 240.0  # seconds for the tests of one mutant, which may run for ever
 OFF = """
 
 def value_verdict(value, found):
@@ -73,7 +75,12 @@ class Fate:
 
     @property
     def counts(self) -> bool:
-        return self.by != "nothing determines it"
+        return self.by != INPUT
+
+    @property
+    def caught(self) -> bool:
+        """By a check that names the place. Other evidence is none: only the committed ledger would show it."""
+        return self.counts and self.named and self.by != "evidence"
 
 
 @dataclass
@@ -107,8 +114,11 @@ class Copy:
         return clean | {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def said(self, *command: str) -> tuple[int, str]:
-        whole: dict[str, Any] = {"cwd": self.folder, "env": self.environment, "text": True, "check": False}
-        done = subprocess.run([sys.executable, *command], capture_output=True, stdin=subprocess.DEVNULL, **whole)
+        whole: dict[str, Any] = {"cwd": self.folder, "env": self.environment, "text": True, "timeout": PATIENCE}
+        try:
+            done = subprocess.run([sys.executable, *command], capture_output=True, stdin=subprocess.DEVNULL, **whole)
+        except subprocess.TimeoutExpired:
+            return 1, f"no end after {PATIENCE} s"
         return done.returncode, done.stdout + done.stderr
 
     def checks(self, notebook: str, anew: bool = False) -> dict[str, Any]:
@@ -214,8 +224,10 @@ def _look(copy: Copy, mutant: Mutant) -> Fate:
         for by, differs in WAYS[mutant.kind].items():
             if found := noticed(before, after, differs):
                 named = any(n in line for n in mutant.names for line in found)
+                if mutant.undetermined and not named:
+                    return Fate(mutant, INPUT)  # what follows from it fails
                 return Fate(mutant, by if named or found != [after["error"]] else "error", named)
-    return Fate(mutant, "nothing determines it" if mutant.undetermined else "")
+    return Fate(mutant, INPUT if mutant.undetermined else "")
 
 
 def sample(mutants: list[Mutant], number: int, seed: int) -> list[Mutant]:
@@ -262,15 +274,20 @@ def report(found: list[Fate]) -> bool:
     for kind in dict.fromkeys(f.mutant.kind for f in found):
         these = [f for f in found if f.mutant.kind == kind]
         counted = [f for f in these if f.counts]
-        caught = [f for f in counted if f.named]
+        caught = [f for f in counted if f.caught]
         share = len(caught) / len(counted) if counted else 1.0
         ways = ", ".join(f"{sum(f.by == by for f in caught)} by {by}" for by in BY)
         print(f"{kind:10} {len(caught)} of {len(counted)} caught by what names the place, {100 * share:.1f} % ", end="")
         print(f"({ways}); {len(these) - len(counted)} that nothing determines")
         enough &= share >= WANTED or kind == "input"
     for f in found:
-        if not (f.named and f.counts):
-            how = f"noticed by {f.by}, which does not name it" if f.by and f.counts else f.by or "survived"
+        if not f.caught:
+            how = (
+                f"noticed by {f.by}, which does not name it"
+                if f.by and f.counts and not f.named
+                else f.by or "survived"
+            )
+            how = "nothing but its evidence moved" if f.by == "evidence" else how
             print(f"{how}: {f.mutant.kind}, {f.mutant.what}")
     return enough
 
@@ -299,7 +316,7 @@ def _counted(wanted: argparse.Namespace, source: Path) -> int:
     unseen = everything if wanted.off else [m for k in ("values", "claims", "derivations") for m in chosen[k][:2]]
     print("with the verdicts switched off:")
     seen = fates(unseen, wanted.jobs, True, source)
-    blind = [f for f in seen if f.by and f.counts and f.mutant.kind != "input"]
+    blind = [f for f in seen if f.caught and f.mutant.kind != "input"]
     print(f"caught {len(blind)} of {len(unseen)} that nothing can see\n")
     if wanted.off or len(blind) > WANTED * 0.1 * len(unseen) + 1:
         return 1 if blind else 0

@@ -82,8 +82,8 @@ def changes_once(reads_first: bool, settles: bool) -> bool:
     (False, True)
     """
     line, old = bumpless.keep_p_plus_i().rhs, bumpless.OLD
-    new = {symbol: 1 for symbol in bumpless.NEW.values()} | {bumpless.NEW[bumpless.SETTINGS["K"]]: 2}
-    known = new | {symbol: 1 for symbol in old.values()} | {code.ysp: 3, bumpless.I_old: 0}
+    new = dict.fromkeys(bumpless.NEW.values(), 1) | {bumpless.NEW[bumpless.SETTINGS["K"]]: 2}
+    known = new | dict.fromkeys(old.values(), 1) | {code.ysp: 3, bumpless.I_old: 0}
     measured, sums = {code.y: 1}, []
     for _ in range(3):
         known |= measured if reads_first else {}
