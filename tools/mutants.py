@@ -42,7 +42,7 @@ WANTED = 0.98
 SERVERS = 4  # notebooks at a time that a copy keeps ready
 BY = ("check", "test", "error")
 INPUT = "nothing determines it"
-PATIENCE = 240.0  # seconds for the tests of one mutant, which may run for ever
+PATIENCE = 240  # seconds of computing for the tests of one mutant, which may run for ever
 OFF = """
 
 def value_verdict(value, found):
@@ -114,11 +114,11 @@ class Copy:
         return clean | {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def said(self, *command: str) -> tuple[int, str]:
-        whole: dict[str, Any] = {"cwd": self.folder, "env": self.environment, "text": True, "timeout": PATIENCE}
-        try:
-            done = subprocess.run([sys.executable, *command], capture_output=True, stdin=subprocess.DEVNULL, **whole)
-        except subprocess.TimeoutExpired:
-            return 1, f"no end after {PATIENCE} s"
+        limited = ("sh", "-c", f'ulimit -t {PATIENCE}; exec "$@"', "sh", sys.executable, *command)
+        whole: dict[str, Any] = {"cwd": self.folder, "env": self.environment, "text": True, "check": False}
+        done = subprocess.run(limited, capture_output=True, stdin=subprocess.DEVNULL, **whole)
+        if done.returncode < 0:
+            return 1, f"ended by signal {-done.returncode} within {PATIENCE} s of computing"
         return done.returncode, done.stdout + done.stderr
 
     def checks(self, notebook: str, anew: bool = False) -> dict[str, Any]:
