@@ -15,7 +15,7 @@ ENVIRONMENT = "environment.txt"
 WANTED = {
     ENVIRONMENT: ("pyproject.toml", "--extra", "reports", "--extra", "control", "--extra", "dev"),
     "tools/uv.txt": ("--group", "installer"),
-    "locks/browser.txt": ("--group", "browser"),
+    "locks/browser.txt": ("pyproject.toml", "--extra", "widget", "--group", "browser"),
     "locks/cjk.txt": ("pyproject.toml", "--extra", "cjk"),
     "locks/cluster.txt": ("pyproject.toml", "--extra", "cluster"),
     "locks/docs.txt": ("pyproject.toml", "--extra", "docs"),

@@ -24,21 +24,21 @@ EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let)\b)", re
 OWN = frozenset(
     re.findall(
         r"\w+",
-        """arriving asks axes bad_measurement band banding bandSoon before begin beginning blocks boxes branch
-        branchEnd buttons cautions chips clearance clipped colour colours constants count crossing
-        crossings current curvature curve dead deepest delay depth distance draw drawn drawRecord edges
-        element evaluated extra extremes falls first firstViolation formKnobs formShown frame future
-        gainAtInfinity gainCrossovers gainLow given grab grid holding horizon instants
-        integralOfMagnitude inverse kdLimit kept keyRow keyTold kindShown knobs lags largest
-        lastFrequency lastStable later limited limited_high limited_low line listeners logMagnitude
-        logSlope logX magnitude main margins mark modes monotonePhase nodes notes onAxis outputs
-        overshoot ownUnits part past phaseAtStart phaseCrossovers pinButton placed plant plotCard plots
-        polished possible printing quiet rangeAround rate_limited rate_step readAddress reference
-        refresh refusals replay replayed result rows rowsTold rule ruleCard rulesFor scaled scales
+        """arriving axes bad_measurement band banding bandSoon before begin beginning blocks boxes branch
+        branchEnd buttons cautions chips clearance clipped colour colours constants count crossing crossings
+        current curvature curve curveAt dead deadTime deepest defaults delay depth disc distance draw drawn
+        drawRecord edges element evaluated extra extremes falls first firstLag firstViolation formKnobs
+        formShown frame future gainAtInfinity gainCrossovers gainLow given grab grid holding horizon
+        instants integralOfMagnitude inverse kdLimit kept keyRow keyTold kindShown knobs lacks lacksEqual
+        lags largest lastFrequency lastStable later limited limited_high limited_low line listeners
+        logMagnitude logSlope logX logY magnitude main margins mark modes monotonePhase nodes notes onAxis
+        outputs overflow overshoot ownUnits part past phaseAtStart phaseCrossovers pinButton placed plant
+        plotCard plots polished possible printing quiet rangeAround rate_limited rate_step readAddress
+        reference refresh refusals replay replayed result rows rowsTold rule ruleCard rulesFor scaled scales
         second secondTouch settle settling shortcut show showKnobs showRules shows signals slider stable
-        stairs started startPhase survey tails toCoefficients transfer travel typedIn unstableRoots
-        useRule usual valueOf variation view waiting wanted whole worst writeAddress writing written
-        xLabels xTicks y_last y_sp_last yTicks""",
+        stairs started startPhase survey tails toCoefficients transfer travel typedIn undershoot
+        unstableRoots useRule usual valueOf variation view waiting wanted whole worst writeAddress writing
+        written xLabels xTicks y_last y_sp_last yTicks""",
     )
 )
 """Properties of the page's own objects that get shorter names in the bundle: long ones, and those used often.

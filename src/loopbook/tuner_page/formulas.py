@@ -1,11 +1,15 @@
 """The tuning rules as JavaScript: printed from the SymPy expressions that compute them in Python.
 
 A rule becomes an object with its words and its formulas as functions of the quantities `q` (Kp, T, L, ...), a caution
-``[when, text, shows]``. Beside them: the equations of the two-lag model, the smooth branch of MIGO, the PID by angles.
+``[when, sentence, shows]`` that rules share. Beside them: the equations of the two-lag model, the smooth branch of
+MIGO, the controllers by a phase margin and by the poles of the loop. Of a rule that an algorithm computes, the words
+alone.
 """
 
 import json
+import re
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -14,11 +18,13 @@ from sympy.printing.jscode import JavascriptCodePrinter
 
 from derivations.experiments import two_lags
 from derivations.loop import robustness
-from derivations.tuning import pid_by_angles
+from derivations.tuning import by_damping, pi_by_margin, pid_by_angles
 from derivations.tuning.catalogue import catalogue
 from derivations.tuning.letters import QUANTITIES
 from derivations.tuning.rule import NONE, OFF, Caution, Rule
 from derivations.tuning.takes import Takes
+from loopbook.tuning.registry import rules as registry
+from loopbook.tuning.rule import TuningRule
 
 TAKES = {
     Takes.STEP: "step",
@@ -29,7 +35,12 @@ TAKES = {
     Takes.TWO_LAGS: "twoLags",
     Takes.PULSE: "pulse",
     Takes.FREQUENCY: "frequency",
+    Takes.PROCESS: "process",
 }
+ASKED = {"w": "w", "w0": "w", "zeta": "zeta", "phase_margin": "margin"}
+"""What a rule must be given, and the wish of the page that gives it."""
+
+RATIONAL = re.compile(r"\((\d+)/(\d+)\)|(?<![\w./*)])(\d+)/(\d+)(?![\w.(*])")
 
 
 class _Printer(JavascriptCodePrinter):
@@ -50,33 +61,67 @@ def _word(symbol: sympy.Symbol) -> str:
     return str(symbol).replace("'", "_slope").replace("omega_180", "w").replace("omega", "w")
 
 
+def _decimal(match: re.Match[str]) -> str:
+    """A ratio of whole numbers as the decimal that is the same double; as it is where that is longer."""
+    over, under = (int(n) for n in (match[1] or match[3], match[2] or match[4]))
+    decimal = str(over / under)
+    return decimal if Fraction(decimal) == Fraction(over, under) else match[0]
+
+
+def _printed(printer: JavascriptCodePrinter, expression: Any) -> str:
+    return RATIONAL.sub(_decimal, printer.doprint(expression))
+
+
 def _of_quantities(expression: Any) -> str:
-    return f"(q) => {_Printer().doprint(expression)}"
+    return f"(q) => {_printed(_Printer(), expression)}"
 
 
 def _function(arguments: Sequence[sympy.Symbol], expression: Any) -> str:
     names = ", ".join(_word(a) for a in arguments)
-    return f"({names}) => {_Plain().doprint(expression)}"
+    return f"({names}) => {_printed(_Plain(), expression)}"
 
 
-def _caution(caution: Caution, sentences: list[str]) -> str:
-    shows = ", ".join(f"{json.dumps(name)}: {_of_quantities(e)}" for name, e in caution.shows.items())
-    when = {sympy.true: "() => true", sympy.false: "() => false"}.get(caution.when) or _of_quantities(caution.when)
-    if caution.text not in sentences:
-        sentences.append(caution.text)
-    return f"[{when}, sentences[{sentences.index(caution.text)}], {{ {shows} }}]"
+class _Cautions:
+    """The cautions of all rules and their sentences, each once."""
+
+    def __init__(self) -> None:
+        self.sentences: list[str] = []
+        self.texts: list[str] = []
+
+    def numbers(self, cautions: Sequence[Caution]) -> str:
+        """The places of these cautions among all, as an array."""
+        return f"[{', '.join(str(_place(self.texts, self._text(caution))) for caution in cautions)}]"
+
+    def _text(self, caution: Caution) -> str:
+        shows = ", ".join(f"{name}: {_of_quantities(e)}" for name, e in caution.shows.items())
+        when = {sympy.true: "() => true", sympy.false: "() => false"}.get(caution.when) or _of_quantities(caution.when)
+        return f"[{when}, {_place(self.sentences, caution.text)}, {{ {shows} }}]"
 
 
-def _cautions(cautions: Sequence[Caution], sentences: list[str]) -> str:
-    return f"[{', '.join(_caution(caution, sentences) for caution in cautions)}]"
+def _place(texts: list[str], text: str) -> int:
+    if text not in texts:
+        texts.append(text)
+    return texts.index(text)
 
 
-def _words(rule: Rule) -> dict[str, Any]:
-    """What is said of a rule."""
+def _words(rule: Rule | TuningRule) -> dict[str, Any]:
+    """What is said of a rule, whether formulas or an algorithm compute it."""
     words: dict[str, Any] = {"name": rule.name, "title": rule.title, "takes": TAKES[rule.takes], "action": rule.action}
     words |= {"integrating": rule.integrating, "source": rule.source, "year": rule.year, "aim": rule.aim}
     if rule.variant_of:
         words["variantOf"] = rule.variant_of
+    return words
+
+
+def _words_of_algorithm(rule: TuningRule) -> dict[str, Any]:
+    words = _words(rule)
+    if rule.required:
+        words["asks"] = [ASKED[name] for name in rule.required]
+    return words | {"equations": rule.text.splitlines()}
+
+
+def _words_of_formulas(rule: Rule) -> dict[str, Any]:
+    words = _words(rule)
     asks = [str(letter) for letter in rule.inputs if letter not in QUANTITIES]
     if asks or "closed" in {QUANTITIES.get(letter) for letter in rule.inputs} - {
         QUANTITIES[letter] for letter in rule.defaults
@@ -87,19 +132,19 @@ def _words(rule: Rule) -> dict[str, Any]:
     return words
 
 
-def _formulas(rule: Rule, sentences: list[str]) -> str:
-    """What computes a rule; sentences: of its cautions."""
+def _formulas(rule: Rule, said: _Cautions) -> str:
+    """What computes a rule."""
     formulas: Mapping[str, Any] = {"K": rule.K, "Ti": rule.Ti, "Td": rule.Td}
     parts = [f"{name}: {_of_quantities(e)}" for name, e in formulas.items() if e not in (NONE, OFF)]
-    if rule.measure is not None:
-        above = sympy.Gt(rule.measure, rule.b_above)
-        parts.append(f"b: (q) => {_Printer().doprint(sympy.Piecewise((1, above), (0, True)))}")
-    elif not rule.b:
-        parts.append("b: () => 0")
+    above = rule.b if rule.measure is None else sympy.Gt(rule.measure, rule.b_above)
+    if not isinstance(above, sympy.Rel):
+        parts += ["b: () => 0"] * (not above)
+    else:
+        parts.append(f"b: (q) => Number({_printed(_Printer(), above)})")
     defaults = ", ".join(f"{QUANTITIES[letter]}: {_of_quantities(e)}" for letter, e in rule.defaults.items())
     parts += [f"defaults: {{ {defaults} }}"] * bool(defaults)
     for name, cautions in (("refusals", rule.refusals + rule.extrapolates), ("cautions", rule.cautions)):
-        parts += [f"{name}: {_cautions(cautions, sentences)}"] * bool(cautions)
+        parts += [f"{name}: {said.numbers(cautions)}"] * bool(cautions)
     needs = sorted({QUANTITIES[letter] for letter in rule.inputs if letter in QUANTITIES} & {"L", "L1"})
     if needs and "closed" not in _names(rule):
         parts.append(f"dead: {json.dumps(needs)}")
@@ -146,33 +191,48 @@ def _angles() -> str:
     """The PID with a phase margin at a frequency."""
     a = pid_by_angles
     parts = {"lead": _function((a.phase, a.margin, a.f, a.a), a.lead())}
-    parts |= {name: _function((a.w, a.k, a.f, a.b, a.a), e) for name, e in a.parallel().items()}
+    parts |= {str(name): _function((a.w, a.k, a.f, a.b, a.a), e) for name, e in a.parallel().items()}
     return "".join(f"    {name}: {text},\n" for name, text in parts.items())
 
 
+def _gains() -> str:
+    """Arrays of gains: the PI with a phase margin at a frequency; PI and PID by the poles of the loop."""
+    m, d = pi_by_margin, by_damping
+    found = {
+        "margin": ((m.w, m.g, m.phase, m.margin), m.gains()),
+        "PI": ((d.b, d.a_1, d.a_0, d.omega_0, d.zeta), d.pi()),
+        "PID": ((d.b, d.a_2, d.a_1, d.a_0, d.omega_0, d.zeta), {k: e.subs(d.alpha, 1) for k, e in d.pid().items()}),
+    }
+    lines = []
+    for name, (letters, gains) in found.items():
+        texts = ", ".join(_printed(_Plain(), e) for e in gains.values())
+        lines.append(f"    {name}: ({', '.join(_word(letter) for letter in letters)}) => [{texts}],\n")
+    return "".join(lines)
+
+
 @cache
-def _rules() -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The formulas of all rules, and the sentences of their cautions."""
-    sentences: list[str] = []
-    rules = tuple(_formulas(rule, sentences) for rule in catalogue().values())
-    return rules, tuple(sentences)
+def _rules() -> tuple[tuple[str, ...], _Cautions]:
+    """The formulas of all rules, and their cautions."""
+    said = _Cautions()
+    return tuple(_formulas(rule, said) for rule in catalogue().values()), said
 
 
 def rules_words() -> dict[str, Any]:
-    """What is said of the rules, for `texts`."""
-    return {"rules": [_words(rule) for rule in catalogue().values()], "sentences": _rules()[1]}
+    """What is said of the rules, for `texts`: those with formulas, then those that algorithms compute."""
+    computed = [rule for rule in registry().values() if rule.name not in catalogue()]
+    words = [_words_of_formulas(rule) for rule in catalogue().values()]
+    return {"rules": words + [_words_of_algorithm(rule) for rule in computed], "sentences": _rules()[1].sentences}
 
 
 @cache
 def rules_script() -> str:
     """The text of the module `rules/formulas.js`."""
-    rules = ", ".join(_rules()[0])
+    rules, said = _rules()
     return (
-        'import { texts } from "../core/texts.js";\n'
-        "const sentences = texts.sentences;\n"
-        "const EMPTY = { defaults: {}, refusals: [], cautions: [], dead: [], b: () => 1 };\n"
-        f"export const published = [{rules}].map((rule, i) => ({{ ...EMPTY, ...texts.rules[i], ...rule }}));\n"
+        f"export const published = [{', '.join(rules)}];\n"
+        f"export const allCautions = [{', '.join(said.texts)}];\n"
         f"export const twoLagEquations = {{\n{_two_lags()}}};\n"
         f"export const migoBranch = {{\n{_branch()}}};\n"
         f"export const byAngles = {{\n{_angles()}}};\n"
+        f"export const gainsBy = {{\n{_gains()}}};\n"
     )

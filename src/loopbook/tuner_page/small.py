@@ -18,6 +18,7 @@ LONG_GLOBALS = ("Float64Array", "globalThis", "document")
 STATIC = frozenset(("Math", "Number", "Object"))  # what they have needs no `this`
 TOPS = frozenset(["const", "let", "function", "class", ";"])
 RESERVED = 23
+ITSELF, OFTEN = "itself", 4  # how often a method says `this` before a name for it is shorter
 LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
@@ -130,6 +131,31 @@ def _literal(kind: str, text: str) -> str:
     return SHORTER.get(text, text) if kind == "name" else text
 
 
+def _itself(found: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    """``this`` by a name of its own in a method that says it often."""
+    closes = closing(found)
+    inserted: set[int] = set()
+    renamed: set[int] = set()
+    for at in (i for i in closes if _is_class(found, i)):
+        i = at + 1
+        while i < closes[at]:
+            if found[i][1] != "{":
+                i = closes.get(i, i) + 1
+                continue
+            body = range(i + 1, closes[i])
+            uses = [j for j in body if found[j] == ("name", "this")]
+            if len(uses) >= OFTEN and not {"super", "function", "class"} & {found[j][1] for j in body}:
+                inserted.add(i)
+                renamed.update(uses)
+            i = closes[i] + 1
+    result: list[tuple[str, str]] = []
+    for i, token in enumerate(found):
+        result.append(("name", ITSELF) if i in renamed else token)
+        if i in inserted:
+            result += [("name", "const"), ("name", ITSELF), ("mark", "="), ("name", "this"), ("mark", ";")]
+    return result
+
+
 def _members(words: list[str]) -> list[str]:
     """``Math.abs`` and its like, and long globals, by one letter or two, declared at the beginning."""
     at = [i for i in range(len(words) - 2) if words[i] in STATIC and words[i + 1] == "."]
@@ -160,7 +186,7 @@ def small(text: str, keep: frozenset[str] = frozenset(), properties: frozenset[s
     >>> small("function far(depth) { const found = { depth }; return found; }")
     'function x(a){let b={depth:a};return b}'
     """
-    found = list(tokens(text))
+    found = _itself(list(tokens(text)))
     words = _members(_together(_renamed(found, keep, properties), [kind for kind, _ in found]))
     parts: list[str] = []
     before = ""

@@ -186,7 +186,7 @@ def _run(project: Project, job: Job, wanted: Wanted, remembers: bool) -> "_Resul
 
     notebook, source = job.notebook, job.source
     if remembers:
-        stamps.forget(project, notebook, output_paths(project, notebook))
+        stamps.forget(project, notebook, output_paths(project, notebook) if wanted.formats else None)
     began = time.time_ns()
     ran = run_notebook(source, notebook.id, project, job.parameters, wanted.timeout)
     warnings = [list(w) for w in ran.warnings]

@@ -140,13 +140,17 @@ def _read(project: Project, notebook: Notebook, path: Path, name: str) -> Any:
     return json.loads(content)
 
 
-def forget(project: Project, notebook: Notebook, reports: Mapping[str, Path]) -> None:
-    """The notebook is not built: its stamp, what is kept of it and the reports named, or known from it, go."""
-    try:
-        known = (sealed.read(_stamp_path(project, notebook), notebook.id) or {}).get("exports", {})
-    except sealed.Damaged:
-        known = {}
-    for path in (*map(Path, known), *reports.values()):
-        atomic.remove(path)
+def forget(project: Project, notebook: Notebook, reports: Mapping[str, Path] | None) -> None:
+    """The notebook is not built: its stamp, what is kept of it and the reports named, or known from it, go.
+
+    reports: None where no report will be written: those of the last build stay until there are new ones.
+    """
+    if reports is not None:
+        try:
+            known = (sealed.read(_stamp_path(project, notebook), notebook.id) or {}).get("exports", {})
+        except sealed.Damaged:
+            known = {}
+        for path in (*map(Path, known), *reports.values()):
+            atomic.remove(path)
     for path in (executed_path(project, notebook), records_path(project, notebook), _stamp_path(project, notebook)):
         atomic.clear(path, also_files=True)

@@ -87,8 +87,12 @@ def test_properties_that_get_shorter_names_are_asked_for_by_no_text():
                 names |= {token.strip("\"'"), *token.strip("\"'").split(",")}
     keys = set(re.findall(r'"(\w+)":', (FOLDER / "ui" / "words.json").read_text(encoding="utf-8")))
     places = set(re.findall(r"\{(\w+)", json.dumps(rules_words())))  # what the words of a rule ask for
-    assert OWN & (names | keys | places) == set()
+    words_of_rules = {key for words in rules_words()["rules"] for key in words}
+    assert OWN & (names | keys | places | words_of_rules | DATA) == set()
 
+
+DATA = {"state", "process", "record", "names", "name", "pins", "formula", "num", "den", *"tuy", "u0", "y0"}
+"""Keys of what Python gives to a page; those of its state are names of knobs."""
 
 SAMPLE = """
 // a remark

@@ -85,6 +85,18 @@ def test_rebuilds_exactly_what_depends_on_it_and_says_why(two):
     assert two.exported == ["a/alone.html"] and "(rebuilt: its code)" in two.said
 
 
+def test_a_run_that_writes_no_reports_takes_none_away_and_the_next_build_makes_them_anew(two):
+    before = two.reports()
+    (two.root / "src/constants.py").write_text("G = 7\n")
+    assert two.build(formats=()).code == 0
+    assert two.reports() == before
+    assert two.build().code == 0
+    assert (
+        two.exported == ["a/uses.html"]
+        and two.executed("a/uses")["cells"][1]["outputs"][0]["data"]["text/plain"] == "21"
+    )
+
+
 def test_a_notebook_saved_while_it_is_built_is_built_as_it_was_and_then_again(bench):
     path = bench.root / "notebooks/a/b.ipynb"
     bench.write("a/b", TITLE, "1 + 1", "import shutil\nshutil.copy('later.json', 'b.ipynb');")

@@ -20,7 +20,10 @@ const last = (p) => p.at(-1);
 
 export const integrates = (process) => last(process.den) === 0 && last(process.num) !== 0;
 
-export const gainSign = (process) => Math.sign(last(process.num) / process.den.filter((c) => c !== 0).at(-1));
+// The sign of the response in the long run; each real unstable pole, which grows the other way, turns it.
+export const gainSign = ({ num, den }) => (
+    Math.sign(last(num) / den.filter((c) => c !== 0).at(-1)) * (-1) ** roots(den).filter((p) => p[0] > 0).length
+);
 
 // The same process with the sign of its gain turned.
 export const turned180 = (process) => ({ ...process, num: process.num.map((c) => -c) });
@@ -183,6 +186,7 @@ export const magnitudeOf = (process, w) => abs(div(value(process.num, [0, w]), v
 
 function frequencyAndGain(process) {
     const found = frequency(process), gain = staticGain(process);
+    if (!(gain > 0)) throw new RuleDoesNotApply("the static gain has not the sign of the response in the long run");
     return { ...found, kappa: gain === Infinity ? 0 : found.K180 / gain };
 }
 

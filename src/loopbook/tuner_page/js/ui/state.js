@@ -8,7 +8,7 @@ export const DEFAULTS = {
     h: 0, low: null, high: null, windup: true,
     kind: "pid", speed: 0.1, damping: 0.7, rest: 0.1, observer: 0.3,
     jump: false, smooth: true, wave: 0, freq: 1,
-    r: 1, d: 0.5, uK: 0, uT: 0, uL: 20, closed: 0, margin: 60,
+    r: 1, d: 0.5, uK: 0, uT: 0, uL: 20, closed: 0, margin: 60, w: 0, zeta: 0.7,
 };
 
 const WORDS = new Set(["form", "kind"]);

@@ -164,7 +164,7 @@ export class Tuner {
 
     valueOf(name) {
         for (const form of Object.values(FORMS)) if (form.knobs.includes(name)) return form.read(this.state)?.[name] ?? this.state.Kc;
-        const around = { h: this.scale / 20, wave: this.state.r / 5, closed: this.scale, speed: this.state.speed, T2: this.state.T1, T3: this.state.T1, Tz: this.state.T1 };
+        const around = { h: this.scale / 20, wave: this.state.r / 5, closed: this.scale, w: 2 / this.scale, speed: this.state.speed, T2: this.state.T1, T3: this.state.T1, Tz: this.state.T1 };
         return this.state[name] || around[name] || 1;
     }
 
@@ -232,7 +232,7 @@ export class Tuner {
             return h("div.lbt-chips", { role: "group", "aria-label": `rules for ${action}` }, h("span", {}, action), ...chips);
         });
         this.more = this.toggle(say("more"), false, () => this.showRules());
-        const wishes = h("div.lbt-wishes", {}, this.knob("closed").element, this.knob("margin").element, this.more);
+        const wishes = h("div.lbt-wishes", {}, ...["closed", "margin", "w", "zeta"].map((name) => this.knob(name).element), this.more);
         return h("fieldset.lbt-card.lbt-rules", {}, h("legend", {}, "Rules"), ...this.chips, wishes);
     }
 
@@ -242,9 +242,9 @@ export class Tuner {
     }
 
     useRule(rule) {
-        const { state } = this, w = this.result.margins?.gainCrossovers[0]?.w ?? this.result.loop?.gainCrossovers?.[0] ?? 0;
+        const { state } = this, w = state.w || this.result.margins?.gainCrossovers[0]?.w ?? this.result.loop?.gainCrossovers?.[0] ?? 0;
         try {
-            const found = settingsBy(rule, processOf(state, this.given), { closed: state.closed, w, margin: state.margin });
+            const found = settingsBy(rule, processOf(state, this.given), { ...state, w });
             const N = found.Tf ? found.Td / found.Tf : state.N;
             this.change({ kind: "pid", Kc: found.K, Ti: found.Ti, Td: found.Td, N, b: found.b, c: 0, form: state.form === "series" ? "standard" : state.form });
             const mind = found.notes.length ? ` Mind: ${found.notes.join("; ")}.` : "";
