@@ -27,6 +27,7 @@ OPPOSITES = (
     *(("amplifies", "attenuates"), ("shortens", "lengthens"), ("helps", "harms"), ("improve", "harm")),
     *(("nearer", "farther"), ("two", "three"), ("half", "twice"), ("tenth", "ninth")),
 )
+TURNED = {"+": "-", "-": "+", "*": "/", "/": "*"}
 WORDS = {a: b for pair in OPPOSITES for a, b in (pair, pair[::-1])}
 
 
@@ -126,7 +127,7 @@ def value_mutants(root: Path) -> Iterator[Mutant]:
 
 
 def claim_mutants(root: Path) -> Iterator[Mutant]:
-    """Each number, direction word and comparison of each statement: in its fields, in its formulas, in its words."""
+    """Each number, direction word and comparison of each statement, in fields and words; each operator of a formula."""
     rows = {(r["document"], r["id"]): r for r in _rows(root, "claims.csv")}
     for document, path, text, id, start, end in _entries(root, "claim"):
         if (document, id) not in rows:
@@ -144,6 +145,11 @@ def claim_mutants(root: Path) -> Iterator[Mutant]:
                 where = path.relative_to(root).as_posix()
                 notebooks = (row["notebook"],) if read else ()
                 yield Mutant("claim", where, *span, new, what, (id,), notebooks)
+
+
+def _formulas(text: str) -> list[tuple[int, int]]:
+    """What is set as mathematics: in backticks, which tests read, and between dollars, which nothing reads."""
+    return _backticks(text) + [m.span() for m in re.finditer(r"\$[^$]*\$", text)]
 
 
 def _backticks(text: str) -> list[tuple[int, int]]:
@@ -169,6 +175,11 @@ def _words(text: str) -> Iterator[tuple[int, int, str]]:
             yield m.start(), m.end(), altered(m[0])
         elif m[0] in WORDS:
             yield m.start(), m.end(), WORDS[m[0]]
+    for a, b in _formulas(text):
+        for m in re.finditer(r"(?<=[^\s*/(])\s*([-+/]|(?<!\*)\*(?!\*))\s*(?=[^\s*/])", text[a:b]):
+            at = a + m.start(1)
+            if not any(x <= at < y for x, y in skipped):
+                yield at, at + 1, TURNED[m[1]]
 
 
 def _sites(tree: ast.Module) -> Iterator[tuple[ast.AST, str, str]]:
@@ -221,7 +232,7 @@ def derivation_mutants(root: Path) -> Iterator[Mutant]:
             a, b, new = span
             line = text[starts[node.lineno - 1] : starts[node.lineno]].strip()  # type: ignore[attr-defined]
             what = f"{where}:{node.lineno}, {function}: {text[a:b].strip()} -> {new.strip()} in `{line[:90]}`"  # type: ignore[attr-defined]
-            yield Mutant("derivation", where, a, b, new, what, (path.stem, function), near, module=module)
+            yield Mutant("derivation", where, a, b, new, what, (f"{path.stem}.py", function), near, module=module)
 
 
 def _span(text: str, starts: list[int], node: ast.AST, kind: str) -> tuple[int, int, str] | None:

@@ -8,8 +8,10 @@ import sympy
 
 from derivations.algebra.delay_polynomials import K, Z, in_delays, polynomial
 from derivations.pole_placement.diophantine import PolePlacement
+from derivations.sampling.zero_order_hold import Sampled
 from loopbook.documents.double_tank import long_fractions
 from loopbook.documents.printed_formulas import formulas
+from notebook_reports.formula.read import read_formula
 from notebook_reports.ledger.document import Document
 from notebook_reports.ledger.verdicts import rounds_to
 
@@ -90,6 +92,24 @@ def laws_agree(design: PolePlacement, document: Document) -> dict[str, bool]:
         shifted = {f: signals[f.func.__name__] * Z ** (f.args[0] - K) for f in found}
         agree[name] = sympy.cancel(signals[newest] - law.rhs.subs(shifted) - under * quotient) == 0
     return agree
+
+
+def model_form_agrees(model: Sampled, document: Document) -> dict[str, bool]:
+    """Are the printed A and B, with the derived coefficients in them, the model's, and the printed process its B/A?"""
+    claim = document.said("model-form")
+    printed = zip(("A", "B"), right_sides(document, claim.id), strict=True)
+    gaps = {f"${n}$": right.subs(model.coefficients) - getattr(model, n) for n, right in printed}
+    process = read_formula(claim.text("process")).subs({"A": model.A, "B": model.B})
+    gaps["the process"] = process - model.B / model.A
+    return {name: sympy.simplify(gap) == 0 for name, gap in gaps.items()}
+
+
+def closed_loop_agrees(document: Document) -> bool:
+    """Is the printed Y/R the loop's, solved from its two laws, A Y = B U and C U = K_r R - D Y?"""
+    A, B, C, D, Kr, Y, U, R = sympy.symbols("A B C D K_r Y U R")
+    solved = sympy.solve([A * Y - B * U, C * U - Kr * R + D * Y], [Y, U])[Y]
+    ((quotient, printed),) = formulas(document.said("closed-loop"))
+    return bool(sympy.cancel(quotient.subs(Y, solved) - printed) == 0)
 
 
 def degree_rules_hold(design: PolePlacement, document: Document) -> dict[str, bool]:

@@ -3,7 +3,7 @@
 Samples are written y(t_k); equations 4.14 to 4.20 stand in the document as program text and use variables.
 """
 
-from sympy import Eq, Symbol
+from sympy import Eq, Expr, Symbol
 
 from derivations.algebra.differences import at
 from derivations.algebra.equality import equality
@@ -11,8 +11,19 @@ from derivations.pid import pid_updates as term
 from derivations.programs import pid_code as code
 from derivations.programs.bumpless import keep_p_plus_i
 from loopbook.documents.labels import Labels
+from notebook_reports.formula.read import read_formula
+from notebook_reports.ledger.printed_data import Claim
 
 EQUATIONS = Labels("pid-report")
+
+
+def said(claim: Claim, field: str) -> Expr:
+    """The formula in a field of a statement, with a symbol for each of its names.
+
+    >>> said(Claim("", "", "", "", {"filter": "T_d/N"}), "filter")
+    T_d/N
+    """
+    return read_formula(claim.text(field), where=claim.where)
 
 
 def _gain(program: code.Program, symbol: Symbol) -> Eq:

@@ -3,6 +3,7 @@
 import ast
 from typing import Any
 
+from derivations.programs import bumpless
 from derivations.programs import pid_code as code
 from loopbook.controllers import generated
 from loopbook.controllers.settings import PidSettings
@@ -69,6 +70,27 @@ def runs_first_pass(figure: str, settings: PidSettings, started: bool) -> bool:
     except TypeError:  # arithmetic with what was never set
         return False
     return True
+
+
+def changes_once(reads_first: bool, settles: bool) -> bool:
+    """After a change of K: does the line for bumpless changes run in every pass, and change I in the first one only?
+
+    As eq. 4.10, before a measurement that stands still is read, or after it (reads_first); at the end of a pass the old
+    settings become the new ones (settles), or stay as they were.
+
+    >>> changes_once(False, False), changes_once(True, True)
+    (False, True)
+    """
+    line, old = bumpless.keep_p_plus_i().rhs, bumpless.OLD
+    new = dict.fromkeys(bumpless.NEW.values(), 1) | {bumpless.NEW[bumpless.SETTINGS["K"]]: 2}
+    known = new | dict.fromkeys(old.values(), 1) | {code.ysp: 3, bumpless.I_old: 0}
+    measured, sums = {code.y: 1}, []
+    for _ in range(3):
+        known |= measured if reads_first else {}
+        sums.append(line.subs(known))
+        known |= measured | {bumpless.I_old: sums[-1]}
+        known |= {symbol: new[bumpless.NEW[setting]] for setting, symbol in old.items()} if settles else {}
+    return not any(I.free_symbols for I in sums) and len(set(sums)) == 1
 
 
 def parses(line: str) -> bool:

@@ -5,7 +5,7 @@ from fractions import Fraction as F
 import pytest
 
 from loopbook.controllers import PidSettings
-from loopbook.documents.pid_report.printed_programs import ProgramController
+from loopbook.documents.pid_report.printed_programs import ProgramController, changes_once
 
 S = PidSettings(K=F(2), Ti=F(4), Td=F(1), Tf=F(1), h=F(1), Tt=F(2))
 
@@ -32,3 +32,10 @@ def test_names():
         ProgramController("4.8", S)
     with pytest.raises(ValueError, match=r"figure 4\.9 has no state 'yfold'; it has y_fold, I"):
         ProgramController("4.9", S, yfold=1)
+
+
+@pytest.mark.parametrize("reads_first", [False, True])
+@pytest.mark.parametrize("settles", [False, True])
+def test_the_line_for_bumpless_changes_needs_both_mends(reads_first, settles):
+    """Without the measurement it does not run at all; with the old settings kept it changes I in every pass."""
+    assert changes_once(reads_first, settles) == (reads_first and settles)
