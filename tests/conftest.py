@@ -99,6 +99,14 @@ def share(request):
     return lambda part, whole: whole if request.config.getoption("--whole") else part
 
 
+@pytest.fixture(autouse=True)
+def no_figure_is_left_open():
+    """What a test draws is closed behind it."""
+    yield
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
+        pyplot.close("all")
+
+
 @pytest.fixture(scope="session")
 def outcome():
     """The project's notebooks, run where something changed since the last build; no reports are written.

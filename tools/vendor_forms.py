@@ -8,9 +8,9 @@ from pathlib import Path
 from sympy import latex
 
 from derivations.vendors.block import PERCENT_OF_RANGES, PERCENT_OUT
-from derivations.vendors.catalogue import LEFT_OUT
+from derivations.vendors.catalogue import LEFT_OUT, by_name
 from loopbook.controllers.pid_forms import PidStandard
-from loopbook.vendors.entered import VendorFormError, block_named, enter, manual_line, shown, vendor_forms
+from loopbook.vendors.entered import VendorFormError, enter, shown, vendor_forms
 
 PAGE = Path(__file__).parents[1] / "docs" / "vendor-forms.md"
 PID = PidStandard(2.0, 300.0, 48.0, b=1.0, N=10)
@@ -45,7 +45,7 @@ def page() -> str:
 
 def section(form: str) -> str:
     """One controller: manual, equation, entries, what it does otherwise."""
-    block, (y_range, u_range) = block_named(form), RANGES
+    block, (y_range, u_range) = by_name()[form], RANGES
     try:
         entered, refused = enter(PID, form, y_range, u_range), ""
     except VendorFormError as error:
@@ -53,7 +53,7 @@ def section(form: str) -> str:
     rows = [f"| `{t.name}` | {shown(t)} | {t.unit or '–'} |" for t in entered.typed]
     parts = [
         f"## {block.title}",
-        f"`{form}`. {manual_line(block)}. Read there: {block.manual.read}.",
+        f"`{form}`. {entered.block.manual}. Read there: {block.manual.read}.",
         f"$$C(s) = {latex(block.feedback)}$$",
         f"Signals: {SIGNALS.get(block.signals, 'the units of the plant')}.",
         "\n".join(["| entry | value | unit |", "|---|---|---|", *rows]),

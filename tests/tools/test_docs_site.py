@@ -58,7 +58,7 @@ def test_every_call_of_the_table_for_newcomers_runs(monkeypatch):
     names = {"lb": lb, "np": np}
     for call in found:
         exec(call, names)  # the table is ours, in order: each row may use what earlier ones made
-    plt.close("all")
+        plt.close("all")
 
 
 def test_the_readme_links_to_what_is_there():

@@ -9,7 +9,7 @@ from loopbook.design.words import as_plain_text
 from loopbook.loop.continuous import Loop
 from loopbook.loop.sensitivity_peaks import sensitivity_peak
 from loopbook.loop.transfer import LoopError
-from loopbook.vendors.entered import Entered, VendorFormError, block_named, enter, manual_line, shown, vendor_forms
+from loopbook.vendors.entered import Entered, VendorFormError, block_named, enter, shown, vendor_forms
 from notebook_reports.display import Table, number
 
 
@@ -30,7 +30,7 @@ class InController:
         """As plain data."""
         if self.entered is None:
             block = block_named(self.form)
-            return {"form": self.form, "title": block.title, "manual": manual_line(block), "refused": self.reason}
+            return {"form": self.form, "title": block.title, "manual": block.manual, "refused": self.reason}
         return {**self.entered.data(), "Ms": self.Ms if math.isfinite(self.Ms) else None}
 
 
@@ -78,7 +78,7 @@ def controllers_table(study: Any) -> Table:
     rows, marks = [], []
     for one in entered_forms(study):
         block = block_named(one.form)
-        manual = as_plain_text(manual_line(block))
+        manual = as_plain_text(block.manual)
         if one.entered is None:
             rows.append([block.title, f"cannot be entered: {as_plain_text(one.reason)}", "–", manual])
             marks.append("note")

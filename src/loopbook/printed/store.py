@@ -7,6 +7,7 @@ byte of the derivations or of a decorated module has changed, it derives. So a k
 
 import json
 import math
+import re
 from collections.abc import Callable, Iterable
 from functools import cache, reduce, wraps
 from hashlib import sha256
@@ -31,6 +32,7 @@ USERS = (
     "loopbook.tuning.by_margin",
     "loopbook.tuning.formulas",
     "loopbook.tuning.migo_branch",
+    "loopbook.vendors.blocks",
 )
 """The modules with printed functions."""
 
@@ -99,7 +101,11 @@ def lambda_text(letters: Iterable[Any], expression: Any, backend: str, **options
     """The text of the function that SymPy's lambdify makes of an expression. backend: "math" or "numpy"."""
     import sympy
 
-    return getsource(sympy.lambdify(list(letters), expression, backend, **options))
+    text = getsource(sympy.lambdify(list(letters), expression, backend, **options))
+    dummies = dict.fromkeys(re.findall(r"\b_?Dummy_\d+\b", text))  # SymPy counts them over the whole process
+    for number, dummy in enumerate(dummies):
+        text = re.sub(rf"\b{dummy}\b", f"dummy_{number}", text)
+    return text
 
 
 def run_text(text: str, backend: str) -> Callable[..., Any]:

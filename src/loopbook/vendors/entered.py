@@ -2,18 +2,13 @@
 
 import difflib
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-
-from sympy import Expr
 
 from derivations.errors import LoopbookError
-from derivations.vendors import block as symbols
-from derivations.vendors.block import PERCENT_OUT, Entry, PidBlock
-from derivations.vendors.catalogue import by_name
 from loopbook.controllers.pid_forms import PidParallel, PidSeries, PidStandard
 from loopbook.plots.plain_table import PlainTable, ShownAsTable
+from loopbook.vendors.blocks import BlockEntry, VendorBlock, vendor_blocks
 
 PERCENT = "%"
 SAME = 1e-9
@@ -46,7 +41,7 @@ class Entered(ShownAsTable):
     where that differs from the setting that was asked for, and what the block does otherwise.
     """
 
-    block: PidBlock
+    block: VendorBlock
     typed: tuple[Typed, ...]
     selections: tuple[str, ...]
     realised: PidStandard
@@ -72,7 +67,7 @@ class Entered(ShownAsTable):
         return {
             "form": self.block.name,
             "title": self.block.title,
-            "manual": manual_line(self.block),
+            "manual": self.block.manual,
             "entries": entries,
             "selections": list(self.selections),
             "realised": {"K": r.K, "Ti": _number(r.Ti), "Td": r.Td, "Tf": r.Tf, "b": r.b, "c": r.c},
@@ -84,26 +79,11 @@ def _number(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def manual_line(block: PidBlock) -> str:
-    """The manual in a line: title, edition, pages."""
-    m = block.manual
-    page = "p. " if m.pages[0].isdigit() else ""
-    return f"{m.title}, {m.edition}, {page}{m.pages}"
-
-
 def shown(t: Typed) -> str:
     """The value to four digits, or what it is per span of the measurement."""
     if t.value is not None:
         return f"{t.value:.4g}"
     return f"{t.per_span:.4g} / span of y" if t.inverse else f"{t.per_span:.4g} × span of y"
-
-
-@cache
-def _compiled(expression: Expr) -> Callable[..., float]:
-    import sympy
-
-    names = (symbols.K, symbols.Ti, symbols.Td, symbols.Tf, symbols.b, symbols.Sy, symbols.Su)
-    return sympy.lambdify(names, expression, "math")
 
 
 def enter(
@@ -126,20 +106,20 @@ def enter(
     block = block_named(form)
     wanted = pid.standard()
     _refuse(block, wanted)
-    Su = _span("u_range", u_range, block.title) if symbols.Su in _used(block) else 1.0
+    Su = _span("u_range", u_range, block.title) if block.of_output else 1.0
     given = y_range is not None or not block.in_percent
     Sy = _span("y_range", y_range, block.title) if y_range is not None else 1.0
     weight = _weight(block, wanted.b)
     numbers = (abs(wanted.K), wanted.Ti, wanted.Td, wanted.Tf, weight, Sy, Su)
     for need in block.needs if wanted.Td else ():
-        if _compiled(need.expression)(*numbers) < -SAME * wanted.Ti:
+        if need.expression(*numbers) < -SAME * wanted.Ti:
             raise VendorFormError(f"{block.title}: Ti = {wanted.Ti:.4g} s, Td = {wanted.Td:.4g} s. {need.reason}")
     entries = [e for e in block.entries if wanted.Td or not e.derivative]
     typed = tuple(_typed(e, numbers, given) for e in entries)
     for entry, one in zip(entries, typed, strict=True):
         _limits(block, entry, one)
     c = 1.0 if block.on_error else 0.0
-    Tf = float(_compiled(block.filter)(*numbers)) if wanted.Td else 0.0
+    Tf = float(block.filter(*numbers)) if wanted.Td else 0.0
     realised = PidStandard(wanted.K, wanted.Ti, wanted.Td, b=weight, c=c, Tf=Tf)
     select = (block.weights[int(weight)],) if block.weights else ()
     way = block.upwards if wanted.K > 0 else block.downwards
@@ -148,12 +128,13 @@ def enter(
     return Entered(block, typed, selections, realised, (*_differs(block, wanted, realised), *block.does))
 
 
-def block_named(form: str) -> PidBlock:
+def block_named(form: str) -> VendorBlock:
     """The block of a name. Raises VendorFormError with the nearest names where there is none."""
-    if form not in by_name():
-        near = difflib.get_close_matches(form, by_name(), 3, 0.4)
-        raise VendorFormError(f"form {form!r} is not known; {' or '.join(near) if near else ', '.join(by_name())}")
-    return by_name()[form]
+    if form not in vendor_blocks():
+        near = difflib.get_close_matches(form, vendor_blocks(), 3, 0.4)
+        meant = " or ".join(near) if near else ", ".join(vendor_blocks())
+        raise VendorFormError(f"form {form!r} is not known; {meant}")
+    return vendor_blocks()[form]
 
 
 def vendor_forms() -> list[str]:
@@ -162,11 +143,7 @@ def vendor_forms() -> list[str]:
     >>> "siemens-pid-compact" in vendor_forms()
     True
     """
-    return list(by_name())
-
-
-def _used(block: PidBlock) -> set[object]:
-    return {symbol for entry in block.entries for symbol in entry.value.free_symbols}
+    return list(vendor_blocks())
 
 
 def _span(name: str, ends: Sequence[float] | None, title: str) -> float:
@@ -180,7 +157,7 @@ def _span(name: str, ends: Sequence[float] | None, title: str) -> float:
     return high - low
 
 
-def _refuse(block: PidBlock, pid: PidStandard) -> None:
+def _refuse(block: VendorBlock, pid: PidStandard) -> None:
     if pid.K == 0:
         raise VendorFormError(f"{block.title}: K = 0 has no form")
     if math.isinf(pid.Ti):
@@ -189,27 +166,25 @@ def _refuse(block: PidBlock, pid: PidStandard) -> None:
         raise VendorFormError(f"{block.title}: {block.derivative}")
 
 
-def _weight(block: PidBlock, b: float) -> float:
+def _weight(block: VendorBlock, b: float) -> float:
     """The nearest set-point weight that the block has."""
     if not block.weights:
         return b
     return float(min(block.weights, key=lambda allowed: (abs(allowed - b), -allowed)))
 
 
-def _typed(entry: Entry, numbers: tuple[float, ...], given: bool) -> Typed:
-    value = float(_compiled(entry.value)(*numbers))
-    if given or symbols.Sy not in entry.value.free_symbols:
+def _typed(entry: BlockEntry, numbers: tuple[float, ...], given: bool) -> Typed:
+    value = float(entry.value(*numbers))
+    if given or not entry.per_span:
         return Typed(entry.name, entry.unit, value)
-    return Typed(
-        entry.name, entry.unit, None, value, entry.value.subs(symbols.Sy, 2) != 2 * entry.value.subs(symbols.Sy, 1)
-    )
+    return Typed(entry.name, entry.unit, None, value, entry.inverse)
 
 
-def _limits(block: PidBlock, entry: Entry, one: Typed) -> None:
+def _limits(block: VendorBlock, entry: BlockEntry, one: Typed) -> None:
     """Raises where the controller does not take the number."""
     if one.value is None:
         return
-    low, high = (None if end is None else float(end) for end in (entry.low, entry.high))
+    low, high = entry.low, entry.high
     if (low is not None and one.value < low) or (high is not None and one.value > high):
         ends = f"{'' if low is None else f'{low:g}'} to {'' if high is None else f'{high:g}'}"
         raise VendorFormError(
@@ -218,10 +193,10 @@ def _limits(block: PidBlock, entry: Entry, one: Typed) -> None:
         )
 
 
-def _differs(block: PidBlock, wanted: PidStandard, realised: PidStandard) -> list[str]:
+def _differs(block: VendorBlock, wanted: PidStandard, realised: PidStandard) -> list[str]:
     """In words, where what the block does is not what was asked for."""
     found = []
-    if block.signals == PERCENT_OUT:
+    if block.out_in_percent:
         found.append("The gain is in % of the output per unit of the measurement.")
     if abs(realised.b - wanted.b) > SAME:
         found.append(

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import loopbook as lb
 from derivations.vendors import block as symbols
+from derivations.vendors.catalogue import by_name
 from loopbook.vendors.entered import VendorFormError, block_named, enter, vendor_forms
 
 PID = lb.PidStandard(2.0, 300.0, 60.0, b=1.0, N=10)
@@ -94,7 +95,7 @@ def test_the_block_s_loop_is_the_realised_setting(K, Ti, share, form):
     except VendorFormError as error:
         assert "takes" in str(error)
         return
-    block = entered.block
+    block = by_name()[form]
     values = {e.symbol: entered.values.get(e.name, 0.0) for e in block.entries}
     s = 1j / Ti
     numeric = {symbols.s: s, symbols.Sy: 40.0, symbols.Su: 25.0, **values}
