@@ -35,18 +35,18 @@ def test_the_records_come_in_every_guise_and_with_every_fault(tmp_path):
 
 
 def test_a_wrong_design_does_not_hold(tmp_path, monkeypatch, share):
-    """The judge tells a loop that is right from one that is not: with the gains tripled most fall."""
+    """The judge tells a loop that is right from one that is not: with gains five times too large most fall."""
     from loopbook.design.study import Study
 
     results = Study.results
 
-    def tripled(self):
+    def too_large(self):
         found = results(self)
-        found["gains"] = {n: 3 * v if n in ("p_1", "p_2", "p_5") else v for n, v in found["gains"].items()}
+        found["gains"] = {n: 5 * v if n in ("p_1", "p_2", "p_5") else v for n, v in found["gains"].items()}
         found["start"] = {"x": 0.0, "I": found["operating_point"]["u0"]}
         return found
 
-    monkeypatch.setattr(Study, "results", tripled)
+    monkeypatch.setattr(Study, "results", too_large)
     verdicts = [r.verdict for r in prove.prove(range(share(3, 6)), tmp_path)]
     assert verdicts.count("held") < len(verdicts) / 2
 
