@@ -19,7 +19,7 @@ from loopbook.numerics.state_space import balancing
 DEGREE = 24
 REACH = 8.0
 MOST_CELLS = 200_000
-MANY_STATES = 4  # beyond, p systems of n: one of p n costs ten times as much where BLAS spreads it over threads
+MANY_STATES = 9  # beyond, p systems of n cost less than one of p n
 SLIVER = 0.02  # of the cell before: a last cell so short joins it
 
 
